@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -62,6 +63,16 @@ def paper_parts(extra: float = 0.0) -> Parts:
         np.array([1.5, 1.5]),
         np.array([np.diag([0.029125, 0.029125, 0.055225])] * 2),
     )
+
+
+def vehicle_of(p: Parts, length: float | None = None) -> Any:
+    """These parts as estimators read them from a vehicle, with a beam of a length [m] or no beam."""
+    payload = SimpleNamespace(mass=p.mass, tensor=p.inertia, center_of_mass=np.zeros(3), span=length)
+    quadrotors = [
+        SimpleNamespace(mass=mass, joint_position=joint, position=position)
+        for mass, joint, position in zip(p.masses, p.joints, p.quadrotors, strict=True)
+    ]
+    return SimpleNamespace(payload=payload, quadrotors=quadrotors, payload_center=-p.centre)
 
 
 def random_parts(rng: np.random.Generator, count: int) -> Parts:

@@ -7,24 +7,80 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from machine_code import Loop
+from newton_euler import paper_parts, vehicle_of
 
 from tandemlift.core.types import leaves, unflat
 from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, each
-from tandemlift.parts.estimation.navigation import NavigationState, Navigator, navigate, navigator, start_navigation
+from tandemlift.parts.estimation.estimator_table import EstimatorTable
+from tandemlift.parts.estimation.navigation import (
+    NavigationState,
+    Navigator,
+    navigate,
+    navigator_from,
+    start_navigation,
+)
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, estimate, push_estimator, start_push
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.sensors.readings import Readings, Sensors, readings_of, sense
-from tandemlift.parts.sensors.start_sensors import sensors, start_sensing, zero_noise
+from tandemlift.parts.sensors.noise_bias_drift import (
+    AttitudeNoise,
+    ChannelModel,
+    NoError,
+    SensorGrade,
+    WhiteNoise,
+    sensor_model,
+)
+from tandemlift.parts.sensors.readings import (
+    DeviceModel,
+    ImuChannels,
+    MotionChannels,
+    Readings,
+    Sensors,
+    readings_of,
+    sense,
+    start_sensing,
+    zero_noise,
+)
+from tandemlift.parts.sensors.sensors_table import SensorsTable
 
 STEP = 1e-3
 SETS = Vec3(*[each(2)(0.0, 0.0)] * 3)
 STATE = State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO)
 FELT = PerfectReadings(ZERO, SETS, SETS, ZERO)
+PERFECT = SensorGrade()
+
+
+def sensors(
+    count: int,
+    step: float,
+    force: SensorGrade = PERFECT,
+    torque: SensorGrade = PERFECT,
+    accelerometer: SensorGrade = PERFECT,
+    gyroscope: SensorGrade = PERFECT,
+    position_noise: float = 0.0,
+    velocity_noise: float = 0.0,
+    attitude_noise: float = 0.0,
+    imu_period: int = 1,
+    motion_period: int = 1,
+) -> Sensors:
+    """Sensors of given grades, whose biases are not drawn; by default perfect and sampled every step."""
+    interval = step * imu_period
+    unit = ImuChannels[ChannelModel](
+        sensor_model(accelerometer, interval),
+        sensor_model(gyroscope, interval),
+        sensor_model(force, interval, count),
+        sensor_model(torque, interval, count),
+        NoError(),
+    )
+    noise = WhiteNoise(position_noise), WhiteNoise(velocity_noise), AttitudeNoise(attitude_noise)
+    motion: Any = MotionChannels(*noise)
+    return Sensors(DeviceModel(unit, float(imu_period)), DeviceModel(motion, float(motion_period)))
+
+
 DEVICES = sensors(2, STEP)
 HISS = zero_noise(DEVICES)
-PUSHES = push_estimator(0.5, (1.0, 1.0, 1.0), np.eye(3)[:2], np.eye(3)[:2], (1.5, 1.5), STEP)
-OBSERVER = navigator((0.0, 0.0, 0.0), STEP)
+PUSHES = push_estimator(EstimatorTable(), vehicle_of(paper_parts()), STEP)
+OBSERVER = navigator_from(EstimatorTable(), SensorsTable(), ZERO, STEP)
 SENSING = start_sensing(DEVICES, STATE, FELT, STATE.attitude)
 READ = readings_of(SENSING)
 

@@ -14,12 +14,11 @@ from tandemlift.missions.outcomes import promise_of
 from tandemlift.parts.controllers.interface import tilt_limit_of
 from tandemlift.parts.interaction.passage import passage_checks, way_checks
 from tandemlift.parts.pilot import schedule_checks
+from tandemlift.parts.pilot.controller_checks import gain_checks, offset_checks, start_checks
 from tandemlift.parts.pilot.excitation import excitation_checks
 from tandemlift.parts.pilot.loop_checks import loop_checks
 from tandemlift.parts.pilot.push_checks import point_checks, push_checks
 from tandemlift.parts.pilot.sensing_checks import sensing_checks
-from tandemlift.parts.pilot.start_checks import start_checks
-from tandemlift.parts.pilot.stiffness_checks import gain_checks, offset_checks
 from tandemlift.parts.rotors.authority import authority_checks
 from tandemlift.parts.rotors.hover_loads import WindOnParts, loads_of
 

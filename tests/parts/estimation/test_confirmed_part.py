@@ -105,9 +105,9 @@ def test_rotors_at_their_speed_leave_the_load_that_is_not_theirs():
     constants = np.array([q.thrust_constant for q in VEHICLE.quadrotors for _ in range(4)])
     speeds, commands = type(at_rest)(*np.sqrt(thrusts / constants)), type(at_rest)(*thrusts)
     lift, _, _, yaw = VEHICLE.effect @ thrusts
-    load, after = outside_load(rotors, speeds, commands, Vec3(0.3, -0.2, lift + 0.5), yaw + 0.07)
-    assert np.array(load.force) == pytest.approx([0.3, -0.2, 0.5], abs=1e-12)
-    assert load.turning == pytest.approx(0.07, abs=1e-12)
+    force, moment, after = outside_load(rotors, speeds, commands, Vec3(0.3, -0.2, lift + 0.5), yaw + 0.07)
+    assert np.array(force) == pytest.approx([0.3, -0.2, 0.5], abs=1e-12)
+    assert moment == pytest.approx(0.07, abs=1e-12)
     assert abs(yaw) > 0.05  # so that its sign counts
     assert np.array(after) == pytest.approx(np.array(speeds))
 

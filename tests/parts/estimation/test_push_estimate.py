@@ -10,12 +10,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from law_values import array, random_attitude, seeds
-from newton_euler import Flight, Given, Parts, flown, paper_parts, random_parts, solved, unit
-from perceived import STEP, happening, onboard, perceived, rows
+from newton_euler import Flight, Given, Parts, flown, paper_parts, random_parts, solved, unit, vehicle_of
+from perceived import STEP, happening, onboard, perceived, rows, sensors
 from scipy import stats
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.vector import Vec3, vec3
+from tandemlift.core.vector import Absent, Vec3, vec3
+from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.estimation.push_estimate import (
     PushEstimator,
     estimate,
@@ -28,7 +29,6 @@ from tandemlift.parts.estimation.push_estimate import (
     start_push,
 )
 from tandemlift.parts.sensors.noise_bias_drift import SensorGrade
-from tandemlift.parts.sensors.start_sensors import sensors
 
 NOISE = {
     "force": SensorGrade(noise=0.05),
@@ -38,9 +38,9 @@ NOISE = {
 }
 
 
-def estimator(p: Parts, **changes: Any) -> PushEstimator:
+def estimator(p: Parts, length: float | None = None, **keys: Any) -> PushEstimator:
     """The estimator that knows the parts as they are."""
-    return push_estimator(p.mass, p.inertia, p.joints, p.quadrotors, p.masses, STEP, **changes)
+    return push_estimator(EstimatorTable(**keys), vehicle_of(p, length), STEP)
 
 
 def moment(rng: np.random.Generator, N: int) -> tuple[Rotation, np.ndarray, Given]:
@@ -75,16 +75,19 @@ def test_a_push_on_the_beam_is_found_where_it_acts(seed, y):
     answer = solved(p, R, w, x)
     k, said = estimator(p, length=2.0, min_force=0.01), unit(R, w, answer)
     push = R.inv().apply(x.push)
-    at = point_of_application(k, vec3(push), moment_on_payload(k, said, vec3(answer.angular)))
+    about = moment_on_payload(k, said, vec3(answer.angular))
+    at = point_of_application(k.off_center, k.reach, k.least, vec3(push), about)
     assert at == pytest.approx(y, abs=1e-9 / np.hypot(push[0], push[2]) ** 2)
 
 
 def test_a_point_is_held_on_the_beam_and_not_given_for_small_forces():
-    k = estimator(paper_parts(), length=2.0, min_force=0.5)
-    assert point_of_application(k, Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.0, -7.0)) == 1.0
-    assert point_of_application(k, Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.0, 7.0)) == -1.0
-    assert point_of_application(k, Vec3(0.3, 5.0, -0.39), Vec3(0.2, 0.0, 0.3)) == 0.0
-    assert point_of_application(k, Vec3(0.3, 0.0, -0.41), Vec3(-0.41 * 0.7, 0.0, -0.3 * 0.7)) == pytest.approx(0.7)
+    def at(force: Vec3, moment: Vec3) -> Any:
+        return point_of_application(Absent(), 1.0, 0.25, force, moment)
+
+    assert at(Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.0, -7.0)) == 1.0
+    assert at(Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.0, 7.0)) == -1.0
+    assert at(Vec3(0.3, 5.0, -0.39), Vec3(0.2, 0.0, 0.3)) == 0.0
+    assert at(Vec3(0.3, 0.0, -0.41), Vec3(-0.41 * 0.7, 0.0, -0.3 * 0.7)) == pytest.approx(0.7)
 
 
 @given(seeds, st.integers(1, 4))
@@ -263,7 +266,7 @@ def test_a_sensor_that_sticks_is_found_and_a_push_is_not():
 
 @pytest.mark.parametrize("period", [2, 4])
 def test_a_slower_unit_gives_the_same_push_in_steps(period):
-    flight, k = excited(), estimator(paper_parts(), imu_period=period, length=2.0)
+    flight, k = excited(), estimator(paper_parts(), length=2.0)._replace(per_interval=1.0 / (period * STEP))
     push = seen(flight, k, imu_period=period).push
     held = rows(push.measured)
     assert np.all(held.reshape(-1, period, 3) == held[::period, None, :])
@@ -283,7 +286,7 @@ def test_a_mass_beyond_the_nominal_at_the_system_s_centre_turns_without_looking_
     arms += extra * (rest @ rest * np.eye(3) - np.outer(rest, rest))
     real = p._replace(mass=mass, inertia=p.inertia + arms, joints=p.joints - shift, quadrotors=p.quadrotors - shift)
     answer = solved(real, R, w, x._replace(at=x.at - shift))
-    k, said = estimator(p, system=p.centre), unit(R, w, answer)
+    k, said = estimator(p), unit(R, w, answer)
     at_nominal = array(said.specific_force) - np.cross(answer.angular, shift) - np.cross(w, np.cross(w, shift))
     force = inertial_force(k, vec3(at_nominal), vec3(w), vec3(answer.angular), mass)
     assert array(force) - answer.force.sum(axis=0) == pytest.approx(R.inv().apply(x.push), abs=1e-9)
@@ -307,10 +310,3 @@ def test_a_tare_that_is_begun_anew_forgets_the_one_before():
     assert twice.sums == once.sums
     assert twice.sums.count == 20.0
     assert (first.measured, first.payload_mass, first.armed) == (second.measured, second.payload_mass, 1.0)
-
-
-def test_a_tare_that_cannot_be_is_refused():
-    with pytest.raises(ValueError, match="identified during the tare"):
-        estimator(paper_parts(), identify_mass=True)
-    with pytest.raises(ValueError, match="holds no sample"):
-        estimator(paper_parts(), tare_start=1.0, tare_duration=1e-4)

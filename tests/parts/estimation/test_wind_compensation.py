@@ -5,11 +5,12 @@ from typing import Any
 import numpy as np
 import pytest
 from law_values import array
-from newton_euler import Given, paper_parts, solved, unit
+from newton_euler import Given, paper_parts, solved, unit, vehicle_of
 from scipy.spatial.transform import Rotation
 
 from tandemlift.core.vector import ZERO, Absent, each
 from tandemlift.missions import load_mission
+from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.estimation.push_estimate import estimate, push_estimator, start_push
 from tandemlift.parts.estimation.wrench.wind_compensation import (
     payload_drag_from,
@@ -50,7 +51,7 @@ def read(R: Rotation, air: np.ndarray, hand: np.ndarray) -> Any:
 
 def estimator(**options: Any):
     p, k = paper_parts(), payload_drag_from(VEHICLE, 200.0, STEP)
-    return push_estimator(p.mass, p.inertia, p.joints, p.quadrotors, p.masses, STEP, windage=k, **options)
+    return push_estimator(EstimatorTable(**options), vehicle_of(p), STEP)._replace(windage=k)
 
 
 def settled(k, memory, said, t):

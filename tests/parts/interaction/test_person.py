@@ -73,15 +73,15 @@ def test_force_and_couple_never_exceed_their_bounds(model, seed):
         state = random_state(rng)
         memory = memory._replace(view=person_view(person.grip, random_state(rng)))
         memory = memory._replace(place=LowPassState(vec3(rng.normal(size=3)), vec3(rng.normal(size=3))), begun=1.0)
-        output = person_step(person, memory, NO_PUSH, state, shaken(rng), k * DT, DT)
-        push, memory = output.push.start, output.memory
+        output, memory = person_step(person, memory, NO_PUSH, state, shaken(rng), k * DT, DT)
+        push = output.start
         assert np.linalg.norm(array(push.force)) <= 3.0 * (1.0 + 1e-12)
         R = Rotation.from_quat(array(state.attitude), scalar_first=True).as_matrix()
         alone = np.cross(array(person.grip), R.T @ array(push.force))
         couple = array(push_moment(push, state.attitude)) - alone
         assert np.abs(couple).max() <= 0.5 * (1.0 + 1e-9)
         assert model == "two-hands" or np.abs(couple).max() < 1e-9
-        assert output.push.start == output.push.middle == output.push.end
+        assert output.start == output.middle == output.end
 
 
 def test_the_hand_gets_to_its_place_as_through_two_equal_lags():
@@ -90,7 +90,7 @@ def test_the_hand_gets_to_its_place_as_through_two_equal_lags():
     start, end = memory.place.value.x, memory.leg.end.x
     places = []
     for k in range(1500):
-        memory = person_step(person, memory, NO_PUSH, at(ZERO), CALM, k * DT, DT).memory
+        _, memory = person_step(person, memory, NO_PUSH, at(ZERO), CALM, k * DT, DT)
         places.append(memory.place.value.x)
     _, wanted, _ = lsim(lti([1.0], [0.01, 0.2, 1.0]), np.ones(1501), np.arange(1501) * DT)
     np.testing.assert_allclose((np.array(places) - start) / (end - start), wanted[1:], atol=1e-9)
@@ -113,35 +113,33 @@ def test_tremor_has_its_size_and_nine_tenths_of_its_power_between_8_and_12_hertz
 def test_a_hand_that_holds_still_is_a_spring_and_a_damper_whatever_is_seen():
     person, memory, _ = company("hold", ((0.0, 0.0),), stiffness=200.0, damping=15.0, tremor=0.0, max_force=999.0)
     for k in range(3000):
-        memory = person_step(person, memory, NO_PUSH, at(ZERO), CALM, k * DT, DT).memory
+        _, memory = person_step(person, memory, NO_PUSH, at(ZERO), CALM, k * DT, DT)
     state = at((0.02, -0.01, 0.0), (0.1, 0.0, -0.2))
     seen = memory._replace(view=person_view(person.grip, at((3.0, 1.0, 0.0))))
-    force = array(person_step(person, seen, NO_PUSH, state, CALM, 3.0, DT).push.start.force)
+    force = array(person_step(person, seen, NO_PUSH, state, CALM, 3.0, DT)[0].start.force)
     grip = array(person.grip) + array(state.position)
     assert force == pytest.approx(200.0 * (array(memory.leg.end) - grip) - 15.0 * array(state.velocity), abs=0.02)
 
 
 def test_a_hand_moves_with_the_grip_until_the_vehicle_is_up_and_lets_go_at_the_end():
     person, memory, _ = company("steer", ((1.0, 0.0),), start_time=0.5, tremor=0.0, height_fraction=0.9)
-    output = person_step(person, memory, NO_PUSH, at((0.0, 0.0, 0.0)), CALM, 1.0, DT)
-    assert array(output.push.start.force) == pytest.approx([0.0] * 3, abs=0.0)  # not up
+    output, _ = person_step(person, memory, NO_PUSH, at((0.0, 0.0, 0.0)), CALM, 1.0, DT)
+    assert array(output.start.force) == pytest.approx([0.0] * 3, abs=0.0)  # not up
     up = at((0.0, 0.0, 1.0))
     memory = memory._replace(
         view=person_view(person.grip, up), place=LowPassState(person_view(person.grip, up).grip, ZERO)
     )
     for k in range(1500):
-        output = person_step(person, memory, NO_PUSH, up, CALM, k * DT, DT)
-        memory = output.memory
-        assert (array(output.push.start.force) != 0.0).any() == (k >= 500)
-    assert output.push.start.force.x > 0.5
+        output, memory = person_step(person, memory, NO_PUSH, up, CALM, k * DT, DT)
+        assert (array(output.start.force) != 0.0).any() == (k >= 500)
+    assert output.start.force.x > 0.5
     assert landing_request(memory) == 0.0
     there = at((1.05, 0.0, 1.0))
     memory = memory._replace(view=person_view(person.grip, there))
     for k in range(2000):
-        output = person_step(person, memory, NO_PUSH, there, CALM, 2.0 + k * DT, DT)
-        memory = output.memory
+        output, memory = person_step(person, memory, NO_PUSH, there, CALM, 2.0 + k * DT, DT)
     assert landing_request(memory) == 1.0
-    assert np.abs(array(output.push.start.force)).max() < 1e-4
+    assert np.abs(array(output.start.force)).max() < 1e-4
 
 
 def test_the_path_is_gone_along_leg_by_leg_with_a_rest_where_it_is_asked_for():
@@ -155,7 +153,7 @@ def test_the_path_is_gone_along_leg_by_leg_with_a_rest_where_it_is_asked_for():
         place = vec3([min(t, 1.0), np.clip(t - 1.0, 0.0, 2.0), z]) if t < 5.0 else Vec3(3.0, 2.0, z)
         if k % 16 == 0:
             memory = memory._replace(leg=legs[int(memory.index)])
-        memory = person_step(person, memory, NO_PUSH, at(place), CALM, t, DT).memory
+        _, memory = person_step(person, memory, NO_PUSH, at(place), CALM, t, DT)
         since.setdefault(memory.index, t)
     assert list(since) == [0.0, 1.0, 2.0]
     assert since[1.0] == pytest.approx(0.5, abs=0.02)  # a corner is taken half a metre early
@@ -169,9 +167,8 @@ def test_two_hands_turn_the_vehicle_towards_its_heading_and_hold_it_at_the_centr
     )
     assert array(person.grip)[1] == 0.0
     for k in range(2000):
-        output = person_step(person, memory, NO_PUSH, at((0.0, 0.0, memory.leg.end.z)), CALM, k * DT, DT)
-        memory = output.memory
-    assert push_moment(output.push.start, LEVEL).z == pytest.approx(0.3 * person.settings.yaw_gain, abs=0.01)
+        output, memory = person_step(person, memory, NO_PUSH, at((0.0, 0.0, memory.leg.end.z)), CALM, k * DT, DT)
+    assert push_moment(output.start, LEVEL).z == pytest.approx(0.3 * person.settings.yaw_gain, abs=0.01)
 
 
 def test_what_is_seen_late_is_reckoned_ahead():
@@ -181,9 +178,8 @@ def test_what_is_seen_late_is_reckoned_ahead():
     for k in range(4000):
         states.append(at(v * k * DT + [0.0, 0.0, memory.leg.end.z], v))
         seen = person_view(person.grip, states[max(k - 200, 0)])
-        output = person_step(person, memory._replace(view=seen), NO_PUSH, states[-1], CALM, k * DT, DT)
-        memory = output.memory
-    assert np.abs(array(output.push.start.force)).max() < 0.02
+        output, memory = person_step(person, memory._replace(view=seen), NO_PUSH, states[-1], CALM, k * DT, DT)
+    assert np.abs(array(output.start.force)).max() < 0.02
 
 
 def test_a_mission_without_a_person_has_none():
@@ -258,3 +254,27 @@ def test_the_force_is_the_missing_speed_towards_a_place_ahead_on_the_leg_and_mor
     size, extra = np.linalg.norm(expected), 0.4
     assert np.cross(more, expected) == pytest.approx([0.0] * 3, abs=1e-12)
     assert np.linalg.norm(more) == pytest.approx(size * (1.0 + extra / np.hypot(size, extra)))
+
+
+@pytest.mark.parametrize(("speed", "asks"), [(0.19, True), (0.21, False)])
+def test_at_the_end_of_the_path_a_landing_is_asked_for_once_the_vehicle_is_slow(speed, asks):
+    person, memory, legs = company("steer", ((1.0, 0.0),), tremor=0.0)
+    slow = person._replace(following=person.following._replace(landing_speed=0.2))
+    there = at((*np.array(legs[0].end)[:2], 1.0), velocity=(0.0, 0.6 * speed, 0.8 * speed))
+    memory = memory._replace(leg=legs[0])
+    for k in range(2000):
+        view = person_view(slow.grip, there)._replace(grip_velocity=ZERO)
+        _, memory = person_step(slow, memory._replace(view=view), NO_PUSH, there, CALM, k * DT, DT)
+    assert landing_request(memory) == float(asks)
+
+
+def test_the_trim_is_the_integral_of_the_wanted_force_across_the_path():
+    person, memory, legs = company("steer", ((9.0, 0.0),), tremor=0.0, max_force=50.0)
+    beside = at((1.0, 0.3, 1.0))
+    memory = memory._replace(leg=legs[0], view=person_view(person.grip, beside), begun=1.0)
+    across = hand_target(person, memory).across
+    for k in range(400):
+        _, memory = person_step(person, memory, NO_PUSH, beside, CALM, k * DT, DT)
+    assert across.y < -0.1
+    assert memory.trim.x == pytest.approx(0.0, abs=1e-12)
+    assert memory.trim.y == pytest.approx(across.y * person.following.trim_rate * 400 * DT, rel=0.01)

@@ -7,14 +7,17 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
-from tandemlift.core.vector import ZERO, Quat, Vec3
+from tandemlift.core.vector import ZERO, Absent, Mat3, Quat, Vec3
+from tandemlift.parts.interaction.person import person_step
 from tandemlift.parts.interaction.person_table import start_virtual_hand
-from tandemlift.parts.interaction.virtual_hand import HAND_RELEASED, pull_by
+from tandemlift.parts.interaction.virtual_hand import HAND_RELEASED
+from tandemlift.parts.mechanics.push import PointPush, PushSamples
 from tandemlift.parts.mechanics.rigid_body import State
 
 DT = 0.002
 PERSON = interactive_mission(tl.load_mission("hover")).person
 LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
+NO_PUSH = PushSamples(*[PointPush(ZERO, Mat3(ZERO, ZERO, ZERO))] * 3)
 
 
 def pulls(target, body=lambda t: (0.0, 0.0), duration=4.0):
@@ -28,8 +31,8 @@ def pulls(target, body=lambda t: (0.0, 0.0), duration=4.0):
         place, speed = body(t)
         state = State(Vec3(place, 0.0, 0.0), Vec3(speed, 0.0, 0.0), LEVEL, ZERO)
         given = HAND_RELEASED._replace(held=1.0, target=Vec3(target(t), 0.0, 0.0))
-        push, memory = pull_by(hand._replace(hand=given), memory, state)
-        forces.append(push.force.x)
+        push, memory = person_step(hand._replace(hand=given), memory, NO_PUSH, state, Absent(), t, DT)
+        forces.append(push.start.force.x)
     return np.array(forces)
 
 

@@ -8,6 +8,7 @@ import pytest
 import tandemlift as tl
 from tandemlift.analysis.linearization.loop_margins import is_stable, largest, open_loop, single_loop
 from tandemlift.missions import load_mission, tables_of
+from tandemlift.parts.pilot.controller_checks import stiffness_of
 from tandemlift.parts.pilot.loop_checks import (
     PushFeedback,
     delay_to_crossing,
@@ -15,7 +16,6 @@ from tandemlift.parts.pilot.loop_checks import (
     excess_turns,
     loop_delays,
 )
-from tandemlift.parts.pilot.stiffness_checks import stiffness_of
 
 
 @pytest.mark.parametrize("controller", ["nftsmc", "geometric", "super-twisting"])

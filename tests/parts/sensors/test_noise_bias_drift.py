@@ -13,19 +13,21 @@ from scipy import stats
 from scipy.spatial.transform import Rotation
 
 from tandemlift.core.vector import ZERO, Vec3, spread, vec3
-from tandemlift.parts.sensors.noise_bias_drift import SensorGrade, displayed, no_drift, read, sensor_model
+from tandemlift.parts.sensors.noise_bias_drift import SensorGrade, displayed, read, sensor_model
+
+SETS = spread(np.zeros((2, 3)))
 
 
 def samples(grade: SensorGrade, truth: Vec3, normals: np.ndarray) -> np.ndarray:
     """Readings (3 × n) of a constant truth with normals (3 × n), without drift."""
-    return np.array(read(sensor_model(grade, 1e-3), no_drift(), truth, Vec3(*normals)))
+    return np.array(read(sensor_model(grade, 1e-3), ZERO, truth, Vec3(*normals)))
 
 
 @given(vectors())
 def test_a_perfect_sensor_reads_every_bit(v):
-    assert read(sensor_model(SensorGrade(), 1e-3), no_drift(), v, Vec3(1.3, -4.0, 0.2)) == v
+    assert read(sensor_model(SensorGrade(), 1e-3), ZERO, v, Vec3(1.3, -4.0, 0.2)) == v
     of_sets = Vec3(*spread([v, (v.z, v.x, v.y)]))
-    assert read(sensor_model(SensorGrade(), 1e-3, 2), no_drift(2), of_sets, of_sets) == of_sets
+    assert read(sensor_model(SensorGrade(), 1e-3, 2), SETS, of_sets, of_sets) == of_sets
 
 
 def test_noise_is_white_with_the_variance_that_is_claimed():
@@ -43,7 +45,7 @@ def test_noise_is_white_with_the_variance_that_is_claimed():
 def test_bias_is_added_in_the_sensors_axes(seed):
     rng = np.random.default_rng(seed)
     v, bias = random_vec3(rng), rng.standard_normal(3)
-    assert array(read(sensor_model(SensorGrade(bias=bias), 1e-3), no_drift(), v, ZERO)) == pytest.approx(
+    assert array(read(sensor_model(SensorGrade(bias=bias), 1e-3), ZERO, v, ZERO)) == pytest.approx(
         array(v) + bias, abs=1e-15
     )
 
@@ -54,10 +56,10 @@ def test_noise_and_drift_from_one_normal_are_as_noise_and_an_independent_walk(no
     single normal: 2σ² + w² at once, −σ² from one to the next, nothing beyond."""
     interval = 2e-3
     k = sensor_model(SensorGrade(noise=noise, drift=drift), interval)
-    readings, walk = [], no_drift()
+    readings, walk = [], ZERO
     for n in (0.0, 1.0, 0.0, 0.0, 0.0, 0.0):
         readings.append(read(k, walk, ZERO, Vec3(n, 0.0, 0.0)).x)
-        walk = walk + Vec3(n, 0.0, 0.0) * k.walk
+        walk = walk + Vec3(n, 0.0, 0.0) * k.errors.walk
     change = np.diff(readings)
     found = [change[i:] @ change[: len(change) - i] for i in range(4)]
     w = drift * math.sqrt(interval)
@@ -68,7 +70,7 @@ def test_noise_and_drift_from_one_normal_are_as_noise_and_an_independent_walk(no
 def test_misalignment_turns_the_sensors_axes(seed):
     rng = np.random.default_rng(seed)
     v, turn = random_vec3(rng), 0.1 * rng.standard_normal(3)
-    found = read(sensor_model(SensorGrade(misalignment=turn), 1e-3), no_drift(), v, ZERO)
+    found = read(sensor_model(SensorGrade(misalignment=turn), 1e-3), ZERO, v, ZERO)
     assert array(found) == pytest.approx(Rotation.from_rotvec(turn).inv().apply(array(v)), abs=1e-14)
 
 
@@ -76,10 +78,10 @@ def test_every_quadrotor_has_a_sensor_of_its_own():
     rng = np.random.default_rng(3)
     bias, turn, truth = rng.standard_normal((3, 3, 3))
     grade = SensorGrade(bias=bias, misalignment=0.1 * turn, resolution=0.01, limit=1.5)
-    together = read(sensor_model(grade, 1e-3, 3), no_drift(3), spread(truth), no_drift(3))
+    together = read(sensor_model(grade, 1e-3, 3), spread(np.zeros((3, 3))), spread(truth), spread(np.zeros((3, 3))))
     for i in range(3):
         alone = sensor_model(grade._replace(bias=bias[i], misalignment=0.1 * turn[i]), 1e-3)
-        assert [c[i] for c in together] == list(read(alone, no_drift(), vec3(truth[i]), ZERO))
+        assert [c[i] for c in together] == list(read(alone, ZERO, vec3(truth[i]), ZERO))
 
 
 def test_the_error_of_quantisation_is_uniform_over_a_step():
@@ -112,4 +114,4 @@ def test_half_steps_go_to_even_wherever_the_law_runs(x, jax, casadi):
 @given(numbers(100.0))
 def test_nothing_is_read_beyond_the_range(x):
     k = sensor_model(SensorGrade(limit=7.0, noise=0.1), 1e-3)
-    assert read(k, no_drift(), Vec3(x, -x, 0.0), ZERO) == Vec3(min(max(x, -7.0), 7.0), min(max(-x, -7.0), 7.0), 0.0)
+    assert read(k, ZERO, Vec3(x, -x, 0.0), ZERO) == Vec3(min(max(x, -7.0), 7.0), min(max(-x, -7.0), 7.0), 0.0)

@@ -10,9 +10,9 @@ import tandemlift as tl
 from tandemlift.core.vector import ZERO, Quat, spread
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.sensors.readings import sense
+from tandemlift.parts.sensors.readings import sense, start_sensing
 from tandemlift.parts.sensors.sensors_table import SensorsTable, first_samples
-from tandemlift.parts.sensors.start_sensors import sensors_from, start_sensing
+from tandemlift.parts.sensors.start_sensors import sensors_from
 
 STEP, NOISE = 1e-3, 0.03
 LEVEL = Quat(1.0, 0.0, 0.0, 0.0)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from law_values import array, flat, random_attitude, random_state, random_vec3, rebuilt, seeds
+from perceived import sensors
 from scipy import stats
 from scipy.spatial.transform import Rotation
 
@@ -15,8 +16,15 @@ from tandemlift.core.vector import ZERO, Quat, Vec3, each, spread, vec3
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.noise_bias_drift import SensorGrade
-from tandemlift.parts.sensors.readings import Readings, SensorNoise, Sensors, readings_of, sense
-from tandemlift.parts.sensors.start_sensors import sensors, start_sensing, zero_noise
+from tandemlift.parts.sensors.readings import (
+    Readings,
+    SensorNoise,
+    Sensors,
+    readings_of,
+    sense,
+    start_sensing,
+    zero_noise,
+)
 
 STEP = 1e-3
 SETS = Vec3(*[each(2)(0.0, 0.0)] * 3)
@@ -111,7 +119,7 @@ def test_the_drift_grows_as_a_random_walk_of_the_time():
     meters = (imu.joint_force, imu.joint_torque, imu.specific_force, imu.rates)
     for i, (drift, k) in enumerate(zip((0.2, 0.1, 0.3, 0.05), meters, strict=True)):
         for sample in (1, 50, samples - 1):
-            variance = drift**2 * (sample * 2 * STEP) + k.noise**2
+            variance = drift**2 * (sample * 2 * STEP) + k.errors.noise**2
             square = np.sum((found[sample, i] - np.mean(found[sample, i])) ** 2) / variance
             low, high = stats.chi2.ppf([1e-4, 1.0 - 1e-4], flights - 1)
             assert low < square < high

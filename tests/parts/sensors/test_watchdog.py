@@ -1,6 +1,7 @@
 """Watchdogs against streams of samples whose faults are known, and against what NumPy counts of them."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,21 +14,31 @@ from tandemlift.parts.sensors.health import (
     FROZEN,
     NO_NUMBER,
     OUT_OF_RANGE,
+    WELL,
     AttitudeLimits,
     JointLimits,
     PerSensor,
     SampleChecks,
     SensorHealth,
     VectorLimits,
+    check_sample,
     health_after,
 )
 from tandemlift.parts.sensors.readings import ImuReading, MotionReading, Readings
-from tandemlift.parts.sensors.sensor_faults import SOUND, SensorFaultState, all_faults, apply_faults, sensor_fault
+from tandemlift.parts.sensors.sensor_faults import SensorFaultState, apply_faults, sensor_faults_from
 from tandemlift.parts.sensors.sensor_list import SENSORS
+from tandemlift.parts.sensors.sensors_table import SensorFaultTable
 from tandemlift.parts.sensors.substitutes import PredictedReadings
-from tandemlift.parts.sensors.watchdog import Watchdog, any_invalid, start_watchdog, watchdog_from, watchdog_step
+from tandemlift.parts.sensors.watchdog import (
+    Watchdog,
+    any_invalid,
+    start_watchdog,
+    substitute_velocity,
+    watchdog_from,
+    watchdog_step,
+)
 
-DT, NEVER = 0.005, 1e18
+DT = 0.005
 LEVEL, TWO = Quat(1.0, 0.0, 0.0, 0.0), each(2)
 DOG = Watchdog(
     stale_time=0.1,
@@ -48,7 +59,7 @@ DOG = Watchdog(
     velocity_gain=1.0 - math.exp(-10.0 * DT),
     motion_rate=1.0 / DT,
 )
-NO_FAULTS = all_faults([SOUND, SOUND])
+NO_FAULTS = sensor_faults_from([], 2, [], DT)
 SIZES = {
     "joints": 200.0,
     "accelerometer": 100.0,
@@ -97,9 +108,11 @@ def numbers(value):
     return [n for part in value for n in (numbers(part) if isinstance(part, tuple) else [part])]
 
 
-def failing(sensor, kind, size=0.0, start=200.0):
-    fault = sensor_fault(kind, start, NEVER, Vec3(size, size, size))
-    return all_faults([SOUND, fault]) if sensor == "joints" else all_faults([SOUND, SOUND], {sensor: fault})
+def failing(sensor, kind, size=0.0, until=None):
+    """The fault of a sensor or device after 200 samples; of joints, that of the second."""
+    joint = 2 if sensor == "joints" else None
+    fault = SensorFaultTable(sensor=sensor, quadrotor=joint, kind=kind, time=1.0, until=until, size=(size, size, size))
+    return sensor_faults_from([fault], 2, [], DT)
 
 
 def found_at(reports, name):
@@ -132,7 +145,7 @@ def test_each_fault_of_each_sensor_is_found_in_time_and_no_other_and_never_gets_
 
 @pytest.mark.parametrize("device", ["imu", "motion"])
 def test_a_device_that_sends_nothing_is_stale_after_its_time(device):
-    faults = all_faults([SOUND, SOUND], stale={device: (200.0, 300.0)})
+    faults = failing(device, "stale", until=1.5)
     reports = [r for _, r in watched(stream(2.0), faults)]
     assert found_at(reports, device)[0] == pytest.approx(1.1, abs=2 * DT)
     assert getattr(reports[-1], device) == 0.0  # it has come back
@@ -194,7 +207,7 @@ def test_what_is_predicted_stands_in_for_a_lost_motion_measurement():
     expected = PredictedReadings(
         State(Vec3(1.0, 2.0, 3.0), Vec3(0.1, 0.2, 0.3), Quat(0.0, 0.0, 0.0, 1.0), ZERO), ZERO, ZERO
     )
-    faults = all_faults([SOUND, SOUND], stale={"motion": (200.0, NEVER)})
+    faults = failing("motion", "stale")
     clean, _ = list(watched(stream(2.0), faults, expected))[-1]
     assert clean.motion == (*expected.state[:3], 0.0)
 
@@ -215,11 +228,12 @@ def test_sensors_that_are_sound_give_what_they_read_to_the_last_bit():
 
 
 def test_a_fault_ends_when_it_is_over():
-    fault = sensor_fault("bias", 10.0, 20.0, Vec3(1.0, 2.0, 3.0))
+    bias = SensorFaultTable(sensor="position", kind="bias", time=10 * DT, until=20 * DT, size=(1.0, 2.0, 3.0))
+    faults = sensor_faults_from([bias], 2, [], DT)
     samples = list(stream(0.2))
     spoiling, off = SensorFaultState(samples[0], 0.0), []
     for sample in samples:
-        given, spoiling = apply_faults(all_faults([SOUND, SOUND], {"position": fault}), spoiling, sample)
+        given, spoiling = apply_faults(faults, spoiling, sample)
         off.append(given.motion.position - sample.motion.position)
     assert [i for i, o in enumerate(off) if any(o)] == list(range(10, 20))
     assert off[10] == pytest.approx((1.0, 2.0, 3.0))
@@ -243,3 +257,42 @@ def test_one_invalid_sensor_of_those_that_are_compared_is_enough(sensor):
     health = PerSensor(*[VALID] * len(PerSensor._fields))
     assert any_invalid(health) == 0.0
     assert any_invalid(health._replace(**{sensor: VALID._replace(failure=1.0)})) == 1.0
+
+
+@pytest.mark.parametrize("axis", range(3))
+@pytest.mark.parametrize("quantity", range(2))
+def test_one_bad_number_of_one_joint_is_found_along_any_axis(axis, quantity):
+    limits = JointLimits(10.0, 1.0, 5.0)
+
+    def sample(number):
+        """Force and torque at two joints, one number of which is given."""
+        parts = [[TWO(0.5, 0.25) for _ in range(3)] for _ in range(2)]
+        parts[quantity][axis] = TWO(0.5, number)
+        return tuple(Vec3(*part) for part in parts)
+
+    sound = sample(0.75)
+    assert check_sample(limits, sound, sample(0.75)) == (0.0, 0.0, 1.0)
+    assert check_sample(limits, sample(0.8), sound) == (0.0, 0.0, 1.0)  # the other joint stands still
+    assert check_sample(limits, sample(float("nan")), sound)[:2] == (1.0, 1.0)
+    assert check_sample(limits, sample(-10.5), sound)[:2] == (0.0, 1.0)
+
+
+BAD, HEALTHY = VALID._replace(failure=NO_NUMBER), PerSensor(*[VALID] * 6)
+PLAIN = SimpleNamespace(motion_rate=100.0, velocity_gain=0.25)
+BEFORE = SimpleNamespace(
+    velocity=Vec3(1.0, 2.0, 3.0), valid=SimpleNamespace(motion=SimpleNamespace(position=Vec3(0.5, 0.5, 0.5)))
+)
+SAMPLE = SimpleNamespace(position=Vec3(0.53, 0.5, 0.46), velocity=Vec3(9.0, 9.0, 9.0), fresh=1.0)
+
+
+@pytest.mark.parametrize("lost", [{"healths": HEALTHY._replace(velocity=BAD)}, {"report": WELL._replace(velocity=2.0)}])
+def test_the_substituted_velocity_follows_the_derivative_of_the_position_by_the_gain_while_there_is_a_new_one(lost):
+    def found(sample=SAMPLE, healths=HEALTHY, report=WELL):
+        return substitute_velocity(PLAIN, BEFORE, sample, healths, report)
+
+    assert found() == SAMPLE.velocity
+    assert found(**lost) == pytest.approx([1.0 + 0.25 * (3.0 - 1.0), 2.0 * 0.75, 3.0 + 0.25 * (-4.0 - 3.0)])
+    held = SimpleNamespace(**{**vars(SAMPLE), "fresh": 0.0})
+    assert found(held, **lost) == BEFORE.velocity
+    no_position = lost.get("healths", HEALTHY)._replace(position=BAD)
+    assert found(**{**lost, "healths": no_position}) == BEFORE.velocity

@@ -21,6 +21,7 @@ from tandemlift.parts.estimation.contact_evidence import (
     PushReading,
     by_line_of_action,
     heard,
+    square_of,
     start_evidence,
     touching_part,
     with_means_of_now,
@@ -28,7 +29,6 @@ from tandemlift.parts.estimation.contact_evidence import (
 from tandemlift.parts.estimation.contact_map import BeamMatch, GuardMatch, beam_of, guards_matched, picked
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator
 from tandemlift.parts.estimation.wrench.tare import SideForces
-from tandemlift.parts.mechanics.low_pass import LowPassState
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
@@ -102,9 +102,9 @@ def in_world(s: State, x: Number, y: Number) -> Vec3:
 
 
 @law
-def rise_time(x: LowPassState[Number], y: LowPassState[Number], f: SideForces[Number]) -> Number:
-    """A force over its slope [s]."""
-    return sqrt((f.x * f.x + f.y * f.y) / maximum(x.rate * x.rate + y.rate * y.rate, TINY))
+def rise_time(f: SideForces[Number], slope: SideForces[Number]) -> Number:
+    """A force [N] over its slope [N/s], in s."""
+    return sqrt(square_of(f) / maximum(square_of(slope), TINY))
 
 
 @law
@@ -115,10 +115,15 @@ def horizontal(f: Vec3) -> Vec3:
 
 
 @law
+def of_part(k: ContactDetector, part: Number, beam: Number, guards: PerQuadrotor) -> Number:
+    """The value of a part: that of the beam, or in a set with one for each guard, that of the guard."""
+    return where(part < 0.0, beam, picked(k.numbers, part, guards))
+
+
+@law
 def force_on(k: ContactDetector, d: Deviations, part: Number, s: State) -> Vec3:
     """The force on a part [N, world axes]."""
-    x = where(part < 0.0, d.push.x, picked(k.numbers, part, d.lasting.x))
-    y = where(part < 0.0, d.push.y, picked(k.numbers, part, d.lasting.y))
+    x, y = of_part(k, part, d.push.x, d.lasting.x), of_part(k, part, d.push.y, d.lasting.y)
     return in_world(s, x, y)
 
 
@@ -126,11 +131,7 @@ def force_on(k: ContactDetector, d: Deviations, part: Number, s: State) -> Vec3:
 def axis_of(k: ContactDetector, part: Number, along: Number, s: State) -> Vec3:
     """The centre of a guard, or the point `along` the beam's axis [m], in world axes [m]."""
     g = k.geometry
-    guard = Vec3(
-        picked(k.numbers, part, g.quadrotors.x),
-        picked(k.numbers, part, g.quadrotors.y),
-        picked(k.numbers, part, g.quadrotors.z),
-    )
+    guard = Vec3(*[picked(k.numbers, part, centres) for centres in g.quadrotors])
     beam = where(part < 0.0, 1.0, 0.0)
     center = chosen(beam, g.payload + Vec3(0.0, along, 0.0), guard)
     return s.position + apply(rotation_from_quaternion(s.attitude), center)
@@ -139,7 +140,7 @@ def axis_of(k: ContactDetector, part: Number, along: Number, s: State) -> Vec3:
 @law
 def radius_of(k: ContactDetector, part: Number) -> Number:
     """The radius of a part [m]."""
-    return where(part < 0.0, k.geometry.radius, picked(k.numbers, part, k.geometry.guards))
+    return of_part(k, part, k.geometry.radius, k.geometry.guards)
 
 
 @law
@@ -157,16 +158,16 @@ def begun(
     g, number = k.geometry, k.numbers
     on_beam = where(part < 0.0, 1.0, 0.0)
     of_guard = SideForces(picked(number, part, d.lasting.x), picked(number, part, d.lasting.y))
-    slope_x = LowPassState(0.0, picked(number, part, m.outside.x.rate))
-    slope_y = LowPassState(0.0, picked(number, part, m.outside.y.rate))
-    mapped = where(part < 0.0, beam.matched, picked(number, part, guards.matched))
+    slope = SideForces(picked(number, part, m.outside.x.rate), picked(number, part, m.outside.y.rate))
+    of_push = rise_time(d.push, SideForces(m.push.x.rate, m.push.y.rate))
+    mapped = of_part(k, part, beam.matched, guards.matched)
     off = Vec3(picked(number, part, guards.offset.x), picked(number, part, guards.offset.y), 0.0)
     force = force_on(k, d, part, s)
     normal = horizontal(chosen(mapped, chosen(on_beam, beam.offset, off), force))
     along = where(
         part < 0.0, where(beam.matched > 0.0, beam.along, y), picked(number, part, g.quadrotors.y) - g.payload.y
     )
-    rise = where(part < 0.0, rise_time(m.push.x, m.push.y, d.push), rise_time(slope_x, slope_y, of_guard))
+    rise = where(part < 0.0, of_push, rise_time(of_guard, slope))
     axis, radius = axis_of(k, part, along, s), radius_of(k, part)
     return ContactEstimate(part, force, axis - normal * radius, along, normal, rise, mapped)
 
@@ -178,9 +179,12 @@ def is_over(k: ContactDetector, c: ContactEstimate, quiet_time: Number, s: State
     return maximum(where(quiet_time > QUIET_TIME, 1.0, 0.0), where(moved > AWAY, 1.0, 0.0))
 
 
-@law
-def is_explained(m: ContactState) -> Number:
-    """1 while a contact, or evidence of one, explains that joints disagree, else 0."""
+@law(absent=0.0)
+def shaken(m: ContactState) -> Number:
+    """1 in a contact, shortly after it, and while evidence of one begins, else 0; `m`: memory of the detection.
+
+    Joints may disagree then, and readings of different times differ.
+    """
     return where(m.over_time < EXPLAINED_TIME, 1.0, where(m.seen_time > 0.0, 1.0, 0.0))
 
 
@@ -196,12 +200,13 @@ def contact_step(
 ) -> tuple[ContactEstimate, ContactState]:
     """(`ContactEstimate`, the new memory) at a sample: `x` the reading of an estimator `e`, `s` the state."""
     before = m.contact
+    # the slow means are held in a contact, whose force would become their mean otherwise
     evidence, d = heard(k, m.evidence, e, x, where(before.part == 0.0, 0.0, 1.0), dt)
     guards = guards_matched(surroundings.walls, k.geometry, s, world_forces(s, d.lasting))
     beam = beam_of(surroundings.walls, k.geometry, s, in_world(s, d.push.x, d.push.y))
     aloft = maximum(surroundings.aloft, where(s.position.z > surroundings.ground + HIGH, surroundings.landing, 0.0))
     free = where(before.part == 0.0, aloft * x.push.armed, 0.0)
-    told = touching_part(k, evidence, d, guards, beam, maximum(x.push.trusted, is_explained(m)))
+    told = touching_part(k, evidence, d, guards, beam, maximum(x.push.trusted, shaken(m)))
     part, y = by_line_of_action(k.whole, told, x.push.point, k, evidence, (guards, beam))
     part = part * free
     seen_time = (m.seen_time + dt) * where(part == 0.0, 0.0, 1.0)
@@ -221,16 +226,10 @@ def contact_step(
     )
 
 
-@law(absent=0.0)
-def shaken(m: ContactState) -> Number:
-    """1 in a contact and shortly after it, when readings of different times differ; `m`: memory of the detection."""
-    return is_explained(m)
-
-
 @law(absent="push")
 def explained_push(m: ContactState, push: PushEstimate) -> PushEstimate:
     """The push, trusted although joints disagree while a contact explains it; `m`: memory of the detection."""
-    trusted = maximum(push.trusted, is_explained(m))
+    trusted = maximum(push.trusted, shaken(m))
     return push._replace(trusted=trusted, usable=push.force * (trusted * push.armed))
 
 

@@ -174,11 +174,11 @@ def doubt_after(k: ContactDetector, doubt: Number, d: Deviations, dt: Number) ->
 def touched_guard(k: ContactDetector, d: Deviations, map_match: GuardMatch, sure: Number) -> Number:
     """The number of the quadrotor whose guard touches now, or 0; `sure` is 1 if the motion confirms forces, else 0."""
     outside, joints, T, p = d.outside, d.joints, d.momentum, d.push
-    square = outside.x * outside.x + outside.y * outside.y
+    square = square_of(outside)
     shown = outside.x * T.x + outside.y * T.y
     carried = total(joints.x * joints.x) + total(joints.y * joints.y)
     seen = where(carried > SEEN * total(square), sure, 0.0)
-    least = maximum(k.threshold * k.threshold, p.x * p.x + p.y * p.y)
+    least = maximum(k.threshold * k.threshold, square_of(p))
     strength = guard_touched(square, shown, least, seen) + on_map(square_of(d.lasting), map_match.matched, least)
     return greatest(number_of(strength, greatest(strength), k.numbers))
 
@@ -187,14 +187,14 @@ def touched_guard(k: ContactDetector, d: Deviations, map_match: GuardMatch, sure
 def steepest_push(k: ContactDetector, m: EvidenceState, p: SideForces[Number]) -> Number:
     """Square of the greatest slope of a push [N²/s²] since it exceeds the threshold, or 0 below."""
     slope = m.push.x.rate * m.push.x.rate + m.push.y.rate * m.push.y.rate
-    return where(p.x * p.x + p.y * p.y > k.threshold * k.threshold, maximum(m.steepest, slope), 0.0)
+    return where(square_of(p) > k.threshold * k.threshold, maximum(m.steepest, slope), 0.0)
 
 
 @law
 def beam_touched(k: ContactDetector, steepest: Number, d: Deviations, matched: Number) -> Number:
     """1 if the beam touches now, else 0; with the square of the `steepest` slope of the push [N²/s²]."""
-    p, T, outside = d.push, d.momentum, d.outside
-    square, on_guards = p.x * p.x + p.y * p.y, greatest(outside.x * outside.x + outside.y * outside.y)
+    p, T = d.push, d.momentum
+    square, on_guards = square_of(p), greatest(square_of(d.outside))
     least = where(matched > 0.0, SHARP, STEEP)
     shown = where(p.x * T.x + p.y * T.y > CONFIRMED * square, 1.0, 0.0)
     return where(square > on_guards, where(steepest > least * least, shown, 0.0), 0.0)
@@ -221,10 +221,8 @@ def by_line_of_action(
     g, T, N, (guards, beam) = k.geometry, deviation(m.momentum), deviation(m.turning).x, on
     crossed = may_act_on(g.quadrotors.x, g.quadrotors.y, g.guards, T.x, T.y, N)
     known = maximum(greatest(crossed * guards.matched), beam.matched)
-    guard, slope = (
-        greatest(where(known > 0.0, guards.matched, 1.0) * crossed * k.numbers),
-        where(known > 0.0, SHARP, STEEP),
-    )
+    guard = greatest(where(known > 0.0, guards.matched, 1.0) * crossed * k.numbers)
+    slope = where(known > 0.0, SHARP, STEEP)
     along = -N * T.x / maximum(T.x * T.x, k.threshold * k.threshold * 0.25) - g.payload.y
     touched = where(m.steepest > slope * slope, where(guard > 0.0, guard, BEAM), 0.0)
     return touched, minimum(maximum(along, -g.half), g.half)
@@ -266,6 +264,7 @@ def heard(
     c, f, T, q, steady = loads(k.whole, k, e, x)
     share = k.slow_rate * dt * (1.0 - hold)
     outside = force_band_step(k.fast, m.outside, c.x, c.y, share)
+    # until the tare is over, the steady mean has to find its place quickly
     rate = where(x.push.armed > 0.0, steady, k.slow_rate) * dt * (1.0 - hold)
     after = m._replace(
         outside=outside,

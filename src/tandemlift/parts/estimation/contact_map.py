@@ -88,7 +88,7 @@ def level(o: Vec3) -> Vec3:
 
 @law
 def guard_match(g: TouchGeometry, wall: Wall, p: Vec3, force: Vec3) -> GuardMatch:
-    """Whether a wall for each guard at p [m, world axes] explains the force on it [N, world axes]; all of sets."""
+    """`GuardMatch` of a wall for each guard at p [m, world axes] and the force on it [N, world axes]; all of sets."""
     o = level(offset(wall, p))
     square = dot(o, o)
     matched = explains(square, g.guards, g.margin, dot(o, force), dot(force, force))
@@ -119,7 +119,7 @@ def _on_map(near: NearWalls, g: TouchGeometry, s: State, force: Vec3) -> GuardMa
 
 @law
 def beam_match(g: TouchGeometry, a: BeamAxis, along: Number, wall: Wall, force: Vec3) -> BeamMatch:
-    """Whether a wall explains a force [N, world axes] at a point `along` the beam [m]."""
+    """`BeamMatch` of a wall and a force [N, world axes] at a point `along` the beam [m]."""
     o = level(offset(wall, beam_point(a, along)))
     square = dot(o, o)
     matched = explains(square, g.radius, g.margin, dot(o, force), dot(force, force))
@@ -159,7 +159,7 @@ def _body_on_map(near: NearPolyhedron, g: TouchGeometry, s: State, force: Vec3) 
 
 @law
 def corner_match(g: TouchGeometry, walls: Wall, arm: Vec3, p: Vec3, force: Vec3) -> BeamMatch:
-    """Whether one of the walls, one for each corner at p [m, world axes], explains a force [N, world axes]."""
+    """`BeamMatch` of a force [N, world axes] and walls, one for each corner at p [m, world axes]."""
     o, count = level(offset(walls, p)), len(arm.x)
     matched = explains(dot(o, o), 0.0, g.margin, dot(o, force), dot(force, force))
     numbers = each(count)(*[1.0 + i for i in range(count)])

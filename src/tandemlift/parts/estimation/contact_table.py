@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, Literal
+from typing import Literal
 
 from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.keys import NonNegative, Positive, Table, key
 from tandemlift.core.types import number
 from tandemlift.core.vector import Absent, each, spread, vec3
-from tandemlift.parts.estimation.contact_detection import start_contact
+from tandemlift.parts.estimation.contact_detection import ContactState, start_contact
 from tandemlift.parts.estimation.contact_evidence import ContactDetector
 from tandemlift.parts.estimation.contact_map import TouchGeometry
 from tandemlift.parts.estimation.wrench.observation import WholeForce
@@ -56,7 +56,7 @@ MARGIN = 0.06  # m: 30 ms at 1 m/s until a contact is detected, and an error of 
 
 def start_contact_detection(
     table: ContactTable, vehicle: Vehicle, step: float, *, joints: bool
-) -> tuple[ContactDetector, Any] | tuple[Absent, Absent]:
+) -> tuple[ContactDetector, ContactState] | tuple[Absent, Absent]:
     """The detector of contacts, by joint sensors or motion, for the nominal vehicle, and its memory; or `Absent`."""
     if table.model == "none":
         return Absent(), Absent()

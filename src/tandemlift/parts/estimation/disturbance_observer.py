@@ -147,15 +147,6 @@ def growth(e: Number, bandwidth: Number, slope: Number) -> Number:
 
 
 @law
-def expected(
-    k: DisturbanceObserver, memory: ObserverState, thrusts: PerRotor
-) -> tuple[LowPassState[Number], LowPassState[Vec3]]:
-    """(the modelled rotors' thrust, moment) after a step under these commands, each with its rate."""
-    u = wrench(k.effect, thrusts)
-    return low_pass_step(k.thrust, memory.thrust, u.thrust), low_pass_step(k.moment, memory.moment, u.moment)
-
-
-@law
 def rates_of_change(k: DisturbanceObserver, pilot_input: PushedState, u: Wrench) -> tuple[Vec3, Vec3]:
     """(acceleration [m/s², world axes], angular acceleration [rad/s², body axes]) without any disturbance."""
     s = pilot_input.state
@@ -185,9 +176,11 @@ def observer_step(
         learning: 1; 0 holds the estimate while feet may touch the floor, whose force is no disturbance.
         dt: since the last sample [s].
     """
-    thrust, moment = expected(k, memory, thrusts)
+    u = wrench(k.effect, thrusts)
+    thrust, moment = low_pass_step(k.thrust, memory.thrust, u.thrust), low_pass_step(k.moment, memory.moment, u.moment)
     linear, angular = rates_of_change(k, pilot_input, Wrench(thrust.value, moment.value))
     f, m = k.force_follower, k.moment_follower
+    # on the ground both errors are 0, so that the model stays at the measured motion
     e, w = (pilot_input.state.velocity - memory.velocity) * active, (pilot_input.state.rates - memory.rates) * active
     acceleration = (memory.acceleration + growth(e, f.bandwidth, f.slope) * (learning * dt)) * active
     turning = (memory.turning + growth(w, m.bandwidth, m.slope) * (learning * dt)) * active
@@ -198,18 +191,12 @@ def observer_step(
     return unmodelled(k, after), after
 
 
-@law
+@law(absent=NONE)
 def unmodelled(k: DisturbanceObserver, m: ObserverState) -> DisturbanceEstimate:
-    """The estimate in a memory."""
+    """The estimate in a memory, that of the last sample."""
     return DisturbanceEstimate(
         m.acceleration * k.mass, apply_inertia(k.inertia, m.turning), m.residual, m.turning_residual
     )
-
-
-@law(absent=NONE)
-def last_known(k: DisturbanceObserver, memory: ObserverState) -> DisturbanceEstimate:
-    """The `DisturbanceEstimate` at the last sample."""
-    return unmodelled(k, memory)
 
 
 UNBOUNDED = 1e18  # a slope that nothing reaches

@@ -129,7 +129,7 @@ def tare_checks(e: EstimatorTable, sampling: float, step: float, *, uses_mass: b
             "estimator.identify_mass = true: the payload's mass is identified during the tare: "
             "set estimator.tare_start, or do not identify"
         )
-    interval = step * max(1, round(sampling / step))
+    interval = step * steps_of(sampling, step)
     if (e.tare_start is not None or e.tare == "hover") and e.tare_duration < interval:
         yield refused(
             f"estimator.tare_duration = {e.tare_duration}: a tare must hold a sample: they come every {interval:g} s"

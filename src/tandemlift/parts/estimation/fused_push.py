@@ -5,7 +5,6 @@ Both are tared in hover. While a floor may carry the vehicle, the joints alone c
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -31,7 +30,6 @@ from tandemlift.parts.estimation.wrench.fused import (
     fused_filter,
     refuted_force,
 )
-from tandemlift.parts.estimation.wrench.wind_compensation import payload_drag_from
 from tandemlift.parts.estimation.wrench_push import (
     PushAndState,
     PushInputs,
@@ -45,7 +43,7 @@ from tandemlift.parts.estimation.wrench_push import (
 from tandemlift.parts.mechanics.rigid_body import inertia_value
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.sensors.off_center import OffCenter, off_center_at
+from tandemlift.parts.sensors.off_center import OffCenter
 from tandemlift.parts.sensors.readings import ImuReading
 from tandemlift.parts.sensors.sensors_table import SensorsTable, noise_scale
 
@@ -116,29 +114,11 @@ def start_push_estimator(
     """The estimator of pushes, by joints, motion or both, and its memory; arguments as for `start_wrench_push`."""
     if e.wrench not in ("joints", "fused"):
         return start_wrench_push(e, s, vehicle, interval, late, floor)
-    payload, quadrotors = vehicle.payload, vehicle.quadrotors
-    push = push_estimator(
-        mass=payload.mass,
-        inertia=payload.tensor,
-        joints=[np.subtract(q.joint_position, payload.center_of_mass) for q in quadrotors],
-        quadrotors=[np.subtract(q.position, payload.center_of_mass) for q in quadrotors],
-        quadrotor_masses=[q.mass for q in quadrotors],
-        step=interval,
-        length=math.inf if payload.span is None else payload.span,
-        bandwidth=e.push_bandwidth,
-        min_force=e.min_force,
-        tare_start=0.0 if e.tare == "hover" else e.tare_start,
-        tare_duration=e.tare_duration,
-        identify_mass=e.identify_mass,
-        disagreement_limit=e.disagreement_limit,
-        windage=Absent() if e.wind_compensation == "none" else payload_drag_from(vehicle, e.wind_bandwidth, interval),
-        system=-vehicle.payload_center,
-        off_center=off_center_at(payload.center_of_mass),
-    )
+    push = push_estimator(e, vehicle, interval)
     if e.wrench == "joints":
         return push, start_push(push, imu)
     motion, moved = start_wrench_push(e, s, vehicle, interval, late, floor)
-    scale = noise_scale(s, interval)
+    payload, scale = vehicle.payload, noise_scale(s, interval)
     noise = s.accelerometer.noise, s.gyroscope.noise, s.joints.force_noise, s.joints.torque_noise
     fused, filtered = fused_filter(
         alone=motion.observer,
@@ -146,7 +126,7 @@ def start_push_estimator(
         tolerances=(e.wrench_observer.joint_force_tolerance, e.wrench_observer.joint_moment_tolerance),
         payload=(payload.mass, inertia_value(payload.tensor), vec3(vehicle.payload_center)),
         noise=(noise[0] * scale, noise[1] * scale, noise[2] * scale, noise[3] * scale),
-        joints=[np.subtract(q.joint_position, payload.center_of_mass) for q in quadrotors],
+        joints=[np.subtract(q.joint_position, payload.center_of_mass) for q in vehicle.quadrotors],
         interval=interval,
     )
     memory = FusedPushState(start_push(push, imu), moved, filtered, ZERO)

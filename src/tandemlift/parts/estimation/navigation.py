@@ -17,7 +17,6 @@ bias by integral action on the attitude: R. Mahony, T. Hamel and J.-M. Pflimlin,
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 from numpy.typing import ArrayLike
@@ -29,7 +28,6 @@ from tandemlift.core.vector import ZERO, Quat, Vec3, apply, apply_transposed, cr
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.mechanics.rigid_body import UP, State
 from tandemlift.parts.mechanics.rotation import normalised, rotated_by, rotation_between, rotation_from_quaternion
-from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.sensors.readings import ImuReading, MotionReading, Readings
 from tandemlift.parts.sensors.sensors_table import SensorsTable, steps_of
 
@@ -72,14 +70,6 @@ class NavigationState(NamedTuple):
     started: Number
 
 
-class Innovation(NamedTuple):
-    """Measured minus estimated: rotation [rad, body axes], velocity [m/s] and position [m] in world axes."""
-
-    turn: Vec3
-    velocity: Vec3
-    position: Vec3
-
-
 @law
 def propagated(k: Navigator, m: NavigationState, imu: ImuReading) -> NavigationState:
     """The estimate propagated to the IMU's sample, if that is fresh."""
@@ -87,6 +77,7 @@ def propagated(k: Navigator, m: NavigationState, imu: ImuReading) -> NavigationS
     rates = (m.measured_rates + imu.rates) * 0.5 - m.gyroscope_bias
     attitude = rotated_by(m.attitude, rates * T)
     new = apply(rotation_from_quaternion(attitude), imu.specific_force - m.accelerometer_bias) - UP * GRAVITY
+    # the acceleration changes linearly over T: its integrals are (a₀ + a₁) T/2 and (2 a₀ + a₁) T²/6
     acceleration = (m.acceleration + new) * 0.5
     smoothed = m.rates + (imu.rates - m.gyroscope_bias - m.rates) * (k.rates * imu.fresh)
     return m._replace(
@@ -108,10 +99,13 @@ def centre_of_mass(k: Navigator, m: NavigationState) -> State:
 
 
 @law
-def innovation(k: Navigator, m: NavigationState, motion: MotionReading) -> Innovation:
-    """The innovation of a motion sample: its values less the estimate at its time, `age` before."""
+def innovation(k: Navigator, m: NavigationState, motion: MotionReading) -> tuple[Vec3, Vec3, Vec3]:
+    """A motion sample less the estimate at its time, `age` before.
+
+    Rotation [rad, body axes]; velocity [m/s] and position [m], world axes.
+    """
     s, ago = centre_of_mass(k, m), k.age
-    return Innovation(
+    return (
         rotation_between(s.attitude, motion.attitude) + s.rates * ago,
         motion.velocity - (s.velocity - m.acceleration * ago),
         motion.position - (s.position - s.velocity * ago + m.acceleration * (0.5 * ago * ago)),
@@ -121,13 +115,13 @@ def innovation(k: Navigator, m: NavigationState, motion: MotionReading) -> Innov
 @law
 def corrected(k: Navigator, m: NavigationState, motion: MotionReading) -> NavigationState:
     """The estimate after a motion sample, if that is fresh."""
-    off, fresh = innovation(k, m, motion), motion.fresh
-    velocity_body = apply_transposed(rotation_from_quaternion(m.attitude), off.velocity)
+    (turn, velocity, position), fresh = innovation(k, m, motion), motion.fresh
+    velocity_body = apply_transposed(rotation_from_quaternion(m.attitude), velocity)
     return m._replace(
-        position=m.position + off.position * (k.position * fresh),
-        velocity=m.velocity + off.velocity * (k.velocity * fresh),
-        attitude=normalised(rotated_by(m.attitude, off.turn * (k.attitude * fresh))),
-        gyroscope_bias=m.gyroscope_bias - off.turn * (k.gyroscope * fresh),
+        position=m.position + position * (k.position * fresh),
+        velocity=m.velocity + velocity * (k.velocity * fresh),
+        attitude=normalised(rotated_by(m.attitude, turn * (k.attitude * fresh))),
+        gyroscope_bias=m.gyroscope_bias - turn * (k.gyroscope * fresh),
         accelerometer_bias=m.accelerometer_bias - velocity_body * (k.accelerometer * fresh),
     )
 
@@ -139,66 +133,28 @@ def navigate(k: Navigator, memory: NavigationState, readings: Readings) -> tuple
     return centre_of_mass(k, after), after
 
 
-def navigator(
-    centre: ArrayLike,
-    step: float,
-    imu_period: int = 1,
-    motion_period: int = 1,
-    position_bandwidth: float = 6.0,
-    velocity_bandwidth: float | None = None,
-    attitude_bandwidth: float = 4.0,
-    rates_bandwidth: float = math.inf,
-    age: float = 0.0,
-) -> Navigator:
-    """The observer with these bandwidths.
+def navigator_from(e: EstimatorTable, s: SensorsTable, centre: ArrayLike, step: float) -> Navigator:
+    """The observer with these sensors, run every `step` [s]; `centre`: the system's centre of mass from the payload's.
 
-    Args:
-        centre: the system's centre of mass from the payload's [m], body axes.
-        step: at which the observer runs [s].
-        imu_period: of the IMU, in steps.
-        motion_period: of the motion measurement, in steps; best a multiple of the IMU's.
-        position_bandwidth: of the correction of position [rad/s].
-        velocity_bandwidth: of velocity and the accelerometer's bias [rad/s]; position's if not given.
-        attitude_bandwidth: of attitude and the gyroscope's bias [rad/s].
-        rates_bandwidth: of a first-order low-pass on the estimated rates [rad/s]; none if infinite.
-        age: by how much the motion measurement's delay exceeds the IMU's [s].
+    The interval of motion samples is best a multiple of the IMU's.
     """
-    T, interval = step * motion_period, step * imu_period
-    pole_of_velocity = exp(-(position_bandwidth if velocity_bandwidth is None else velocity_bandwidth) * T)
-    pole_of_attitude = exp(-attitude_bandwidth * T)
+    T = step * steps_of(s.motion.interval, step)
+    position_pole, attitude_pole = exp(-e.position_bandwidth * T), exp(-e.attitude_bandwidth * T)
     return Navigator(
-        interval=interval,
+        interval=step * steps_of(s.interval, step),
         centre=vec3(centre),
-        age=number(age),
-        attitude=1.0 - pole_of_attitude**2,
-        velocity=1.0 - pole_of_velocity**2,
-        position=1.0 - exp(-position_bandwidth * T),
-        gyroscope=(1.0 - pole_of_attitude) ** 2 / T,
-        accelerometer=(1.0 - pole_of_velocity) ** 2 / T,
-        rates=1.0 - exp(-rates_bandwidth * interval),
-    )
-
-
-def navigator_from(e: EstimatorTable, s: SensorsTable, vehicle: Vehicle, step: float) -> Navigator:
-    """The observer of a vehicle with these sensors, run every `step` [s]."""
-    return navigator(
-        vehicle.center_of_mass,
-        step,
-        steps_of(s.interval, step),
-        steps_of(s.motion.interval, step),
-        position_bandwidth=e.position_bandwidth,
-        attitude_bandwidth=e.attitude_bandwidth,
-        age=s.motion.delay - s.delay,
+        age=number(s.motion.delay - s.delay),
+        attitude=1.0 - attitude_pole**2,
+        velocity=1.0 - position_pole**2,
+        position=1.0 - position_pole,
+        gyroscope=(1.0 - attitude_pole) ** 2 / T,
+        accelerometer=(1.0 - position_pole) ** 2 / T,
+        rates=1.0,
     )
 
 
 def start_navigation(navigator: Navigator, state: State) -> NavigationState:
-    """The memory before the first step: the estimate is `state`, without bias.
-
-    Args:
-        navigator: the observer.
-        state: of the system's centre of mass.
-    """
+    """The memory before the first step: the estimate is `state`, of the system's centre of mass, without bias."""
     R = rotation_from_quaternion(state.attitude)
     return NavigationState(
         position=state.position - apply(R, navigator.centre),

@@ -9,7 +9,7 @@ rejected.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,7 +19,12 @@ from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, each, vec3
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
-from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, PushEstimatorState
+from tandemlift.parts.estimation.push_estimate import (
+    PushEstimate,
+    PushEstimator,
+    PushEstimatorState,
+    relative_acceleration,
+)
 from tandemlift.parts.estimation.wrench.confirmed_part import Zero, compared
 from tandemlift.parts.estimation.wrench.wind_compensation import subtracted_wind
 from tandemlift.parts.mechanics.loads import scaled, sum_over_set, translated
@@ -78,19 +83,11 @@ class SampledPush(NamedTuple):
     memory: PushEstimatorState
 
 
-class OutsideLoad(NamedTuple):
-    """A sample of the external load besides the push: force [N, body axes] and moment about z [N·m]."""
-
-    force: Vec3
-    turning: Number
-
-
 @law
 def on_quadrotors(k: PushEstimator, imu: ImuReading, angular: Vec3) -> Vec3:
     """Σ (f_i + m_i s_i) [N, body axes]: the rotors' thrust and the external force on the quadrotors."""
-    a, w = imu.specific_force, imu.rates
-    turn = cross(cross(k.quadrotors, w), w) - cross(k.quadrotors, angular)
-    return sum_over_set(imu.joint_force + scaled(translated(a, turn), k.quadrotor_mass))
+    turn = relative_acceleration(k.quadrotors, imu.rates, angular)
+    return sum_over_set(imu.joint_force + scaled(translated(imu.specific_force, turn), k.quadrotor_mass))
 
 
 @law
@@ -105,17 +102,18 @@ def speed_at(thrust: Number, per_constant: Number) -> Number:
     return sqrt(maximum(thrust, REST_THRUST) * per_constant)
 
 
-@law(absent=(OutsideLoad(ZERO, 0.0), "memory"))
+@law(absent=(ZERO, 0.0, "memory"))
 def outside_load(
     rotors: RotorModel, memory: PerRotor, commands: PerRotor, quadrotors: Vec3, turning: Number
-) -> tuple[OutsideLoad, PerRotor]:
-    """(`OutsideLoad` of a sample, the speed of every rotor as modelled [rad/s]) after the last thrusts [N].
+) -> tuple[Vec3, Number, PerRotor]:
+    """(Force [N, body axes] and moment about z [N·m] of the load besides the push, modelled speeds of rotors [rad/s]).
 
-    `quadrotors`: Σ (f_i + m_i s_i) [N]; `turning`: rate of the angular momentum less the push's moment [N·m], body z.
+    `commands`: the last thrusts [N]; `quadrotors`: Σ (f_i + m_i s_i) [N]; `turning`: rate of the angular momentum less
+    the push's moment [N·m], body z.
     """
     squares, speeds = lag_step(rotors.up, rotors.down, memory, speed_at(commands, rotors.per_constant))
     made = wrench(rotors.effect, squares * rotors.constant)
-    return OutsideLoad(quadrotors - UP * made.thrust, turning - made.moment.z), speeds
+    return quadrotors - UP * made.thrust, turning - made.moment.z, speeds
 
 
 @law(absent=("p", "m"))
@@ -136,8 +134,8 @@ def confirm(
     sampled = apply_transposed(rotation_from_quaternion(imu.frame), p.measured)
     momentum = apply_inertia(k.inertia, after.angular) - gyroscopic(k.inertia, imu.rates)
     turning = momentum.z - about_vertical(e, p.measured_moment, sampled) * p.armed  # before, it is not tared
-    now, speeds = outside_load(k.rotors, m.speeds, commands, on_quadrotors(e, imu, after.angular), turning)
-    rest, about_z = low_pass_step(k.low_pass, m.rest, now.force), low_pass_step(k.low_pass, m.turning, now.turning)
+    load, moment, speeds = outside_load(k.rotors, m.speeds, commands, on_quadrotors(e, imu, after.angular), turning)
+    rest, about_z = low_pass_step(k.low_pass, m.rest, load), low_pass_step(k.low_pass, m.turning, moment)
     force, beside = after.force.value, rest.value + subtracted_wind(after.wind)
     turned = about_vertical(e, after.moment.value, force)
     tare, learns = (1.0 - p.armed) / maximum(after.sums.count, 1.0), p.armed * (1.0 - explained) * dt
@@ -185,7 +183,7 @@ def rotor_model(vehicle: Vehicle, step: float) -> tuple[RotorModel, PerRotor]:
     return model, rotors(*[0.0] * vehicle.rotor_count)
 
 
-def _wind_ratios(vehicle: Vehicle) -> list[Any]:
+def _wind_ratios(vehicle: Vehicle) -> list[Number]:
     """Drag of the payload over that of the quadrotors along each body axis; 0 where the quadrotors have none."""
     beam = array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
     fleet = np.sum([array(q.areas) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)

@@ -20,22 +20,21 @@ however the force changes and the vehicle rotates.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from tandemlift.core.algebra import clip, maximum, sqrt, where
-from tandemlift.core.arrays import array
 from tandemlift.core.law import law
 from tandemlift.core.types import Number, NumberSet, PerQuadrotor, number
 from tandemlift.core.vector import ZERO, Absent, Vec3, apply, cross, each, spread, total, vec3
+from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.estimation.wrench.observation import PushEstimate as PushEstimate
 from tandemlift.parts.estimation.wrench.tare import TINY, SideForces, TareSums, summed, tare_fields, tare_of
 from tandemlift.parts.estimation.wrench.wind_compensation import (
     PayloadDrag,
     PayloadDragState,
+    payload_drag_from,
     start_payload_drag,
     wind_on_payload,
 )
@@ -43,10 +42,9 @@ from tandemlift.parts.mechanics.loads import add_to_each, sum_over_set
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import Inertia, apply_inertia, gyroscopic, inertia_value
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.sensors.off_center import OffCenter, about_center, from_origin
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.sensors.off_center import OffCenter, about_center, from_origin, off_center_at
 from tandemlift.parts.sensors.readings import ImuReading
-
-NOTHING = Absent()
 
 
 class PushEstimator(NamedTuple):
@@ -93,20 +91,11 @@ class PushEstimatorState(NamedTuple):
     wind: PayloadDragState | Absent
 
 
-class OnBeam(Protocol):
-    """Where a force may act: `reach` [m], `least` [N²] and `off_center` as of a `PushEstimator`."""
-
-    @property
-    def reach(self) -> Number:
-        """Half the beam's length."""
-
-    @property
-    def least(self) -> Number:
-        """Square of the least force."""
-
-    @property
-    def off_center(self) -> OffCenter | Absent:
-        """Of the payload."""
+@law
+def relative_acceleration(r: Vec3, rates: Vec3, angular: Vec3) -> Vec3:
+    """ω × (ω × r) + ω̇ × r [m/s², body axes]: the acceleration of a point r of the vehicle relative to the origin."""
+    # r is the left factor, because it may be a vector of sets: some array libraries swallow a tuple on the right
+    return cross(cross(r, rates), rates) - cross(r, angular)
 
 
 @law
@@ -123,15 +112,13 @@ def inertial_force(k: PushEstimator, specific_force: Vec3, rates: Vec3, angular:
     `specific_force` [m/s²] is at the payload's centre of mass. If a large excess mass were assumed there too, every
     rotation of the vehicle would look like a push, which the pilot then compensates: an unstable loop.
     """
-    turn = cross(cross(k.system, rates), rates) - cross(k.system, angular)
-    return specific_force * mass + turn * (mass - k.mass)
+    return specific_force * mass + relative_acceleration(k.system, rates, angular) * (mass - k.mass)
 
 
 @law
 def external_forces(k: PushEstimator, imu: ImuReading, angular: Vec3) -> SideForces[PerQuadrotor]:
     """The external horizontal force on every quadrotor [N], body axes."""
-    a, w = imu.specific_force, imu.rates
-    turn = cross(cross(k.quadrotors, w), w) - cross(k.quadrotors, angular)
+    a, turn = imu.specific_force, relative_acceleration(k.quadrotors, imu.rates, angular)
     x = imu.joint_force.x + add_to_each(turn.x, a.x) * k.quadrotor_mass
     y = imu.joint_force.y + add_to_each(turn.y, a.y) * k.quadrotor_mass
     return SideForces(x, y)
@@ -145,11 +132,16 @@ def less_mean(k: PushEstimator, outside: SideForces[PerQuadrotor]) -> SideForces
 
 
 @law
-def point_of_application(k: OnBeam, force: Vec3, moment: Vec3) -> Number:
-    """The place on the beam's axis, body y [m], of a force with this moment about the centre of mass (body axes)."""
+def point_of_application(
+    off_center: OffCenter | Absent, reach: Number, least: Number, force: Vec3, moment: Vec3
+) -> Number:
+    """The place on the beam's axis, body y [m], of a force with this moment about the centre of mass (body axes).
+
+    It lies within `reach` [m] of the middle, and is 0 for a force whose square is below `least` [N²].
+    """
     square = force.x * force.x + force.z * force.z
-    y = (moment.x * force.z - moment.z * force.x) / maximum(square, k.least)
-    return where(square < k.least, 0.0, clip(from_origin(k.off_center, y), -k.reach, k.reach))
+    y = (moment.x * force.z - moment.z * force.x) / maximum(square, least)
+    return where(square < least, 0.0, clip(from_origin(off_center, y), -reach, reach))
 
 
 @law
@@ -164,6 +156,7 @@ def estimate(
 ) -> tuple[PushEstimate, PushEstimatorState]:
     """(Push, the new memory) from a reading of the IMU at time t [s]."""
     angular = where(imu.fresh > 0.0, (imu.rates - memory.rates) * k.per_interval, memory.angular)
+    # the accelerometer is at the origin, and the equations are about the centre of mass
     imu = about_center(k.off_center, imu, angular)
     a, f = imu.specific_force, sum_over_set(imu.joint_force)
     moment, outside = moment_on_payload(k, imu, angular), external_forces(k, imu, angular)
@@ -208,7 +201,7 @@ def concluded(
         measured_moment=turning,
         force=smoothed,
         moment=moment,
-        point=point_of_application(k, after.force.value, moment),
+        point=point_of_application(k.off_center, k.reach, k.least, after.force.value, moment),
         payload_mass=mass,
         disagreement=wrong,
         trusted=trusted,
@@ -217,65 +210,26 @@ def concluded(
     )
 
 
-def push_estimator(
-    mass: float,
-    inertia: ArrayLike,
-    joints: Sequence[ArrayLike],
-    quadrotors: Sequence[ArrayLike],
-    quadrotor_masses: Sequence[float],
-    step: float,
-    imu_period: int = 1,
-    length: float = math.inf,
-    bandwidth: float = 36.0,
-    min_force: float = 0.5,
-    tare_start: float | None = None,
-    tare_duration: float = 2.0,
-    identify_mass: bool = False,
-    disagreement_limit: float = 2.0,
-    windage: PayloadDrag | Absent = NOTHING,
-    system: ArrayLike = (0.0, 0.0, 0.0),
-    off_center: OffCenter | Absent = NOTHING,
-) -> PushEstimator:
-    """The estimator of the push on a payload, with the pilot's model of the vehicle.
-
-    Args:
-        mass: of the payload [kg].
-        inertia: of the payload about its centre of mass [kg·m²], body axes (3 principal moments, or 3 × 3).
-        joints: from the payload's centre of mass [m], body axes (N × 3); `quadrotors`, their centres of mass, likewise.
-        quadrotor_masses: [kg] (N).
-        step: at which the estimator runs [s].
-        imu_period: of the IMU, in steps.
-        length: of the beam along body y [m]; no point of application lies beyond its ends.
-        bandwidth: of the low-pass [rad/s].
-        min_force: across the beam [N], below which there is no point of application.
-        tare_start: of the tare in hover [s], which lasts for `tare_duration` [s]; None for no tare.
-        identify_mass: whether to identify the payload's mass during the tare.
-        disagreement_limit: [N], from which on the push is not trusted.
-        windage: how the wind on the payload is subtracted, or `Absent`.
-        system: the whole vehicle's centre of mass from the payload's [m], body axes (3).
-        off_center: how the payload's centre of mass differs from its origin, or `Absent`.
-
-    Raises:
-        ValueError: the mass is to be identified without a tare, or the tare is shorter than a sample.
-    """
-    J, N = array(inertia), len(joints)
+def push_estimator(e: EstimatorTable, vehicle: Vehicle, interval: float) -> PushEstimator:
+    """The estimator with the nominal vehicle, for samples of the IMU every `interval` [s]."""
+    payload, quadrotors, N = vehicle.payload, vehicle.quadrotors, len(vehicle.quadrotors)
     return PushEstimator(
-        mass=number(mass),
-        inertia=inertia_value(np.diag(J) if J.ndim == 1 else J),
-        system=vec3(system),
-        joints=spread(joints),
-        quadrotors=spread(quadrotors),
-        quadrotor_mass=each(N)(*map(number, quadrotor_masses)),
-        reach=0.5 * length,
-        per_interval=1.0 / (step * imu_period),
-        low_pass=low_pass(bandwidth, step),
-        least=min_force**2,
-        **tare_fields(tare_start, tare_duration, identify_mass, step * imu_period),
-        limit=number(disagreement_limit),
+        mass=number(payload.mass),
+        inertia=inertia_value(payload.tensor),
+        system=-vec3(vehicle.payload_center),
+        joints=spread([np.subtract(q.joint_position, payload.center_of_mass) for q in quadrotors]),
+        quadrotors=spread([np.subtract(q.position, payload.center_of_mass) for q in quadrotors]),
+        quadrotor_mass=each(N)(*[number(q.mass) for q in quadrotors]),
+        reach=math.inf if payload.span is None else 0.5 * payload.span,
+        per_interval=1.0 / interval,
+        low_pass=low_pass(e.push_bandwidth, interval),
+        least=e.min_force**2,
+        **tare_fields(0.0 if e.tare == "hover" else e.tare_start, e.tare_duration, e.identify_mass),
+        limit=number(e.disagreement_limit),
         share=1.0 / N,
         alone=N / (N - 1) if N > 1 else 0.0,
-        windage=windage,
-        off_center=off_center,
+        windage=Absent() if e.wind_compensation == "none" else payload_drag_from(vehicle, e.wind_bandwidth, interval),
+        off_center=off_center_at(payload.center_of_mass),
     )
 
 

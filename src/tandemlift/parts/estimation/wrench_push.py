@@ -99,7 +99,7 @@ class PushInputs(NamedTuple):
     """Readings, the last thrusts of the rotors [N], 1 while no floor carries the vehicle, the clock of the tare, dt."""
 
     readings: Readings
-    commands: Any
+    commands: PerRotor | Absent
     airborne: Number
     t: Number
     dt: Number
@@ -129,14 +129,6 @@ def _by_joints(
     return PushAndState(push, after, *navigate(navigator, navigation, x.readings))
 
 
-@push_and_state.register(WrenchPush)
-def _by_motion(
-    k: WrenchPush, memory: WrenchPushState, navigator: Navigator, navigation: NavigationState, x: PushInputs
-) -> PushAndState:
-    state, after = navigate(navigator, navigation, x.readings)
-    return PushAndState(*observed_push(k, memory, x, state), state, after)
-
-
 @law
 def modelled_rotors(
     k: ThrustModel, m: ThrustState, x: PushInputs, state: State, vertical: Number
@@ -160,13 +152,12 @@ def observation(k: WrenchPush, m: WrenchPushState, x: PushInputs, state: State) 
     return seen, m._replace(thrust=thrust, rates=imu.rates, angular=angular)
 
 
-@law
-def observed_push(
-    k: WrenchPush, m: WrenchPushState, x: PushInputs, state: State
-) -> tuple[PushEstimate, WrenchPushState]:
-    """(the push by an observer, the new memory)."""
-    imu = x.readings.imu
-    seen, m = observation(k, m, x, state)
+@push_and_state.register(WrenchPush)
+def _by_motion(
+    k: WrenchPush, memory: WrenchPushState, navigator: Navigator, navigation: NavigationState, x: PushInputs
+) -> PushAndState:
+    (state, navigated), imu = navigate(navigator, navigation, x.readings), x.readings.imu
+    seen, m = observation(k, memory, x, state)
     smooth = low_pass_step(k.low_pass, m.specific_force, imu.specific_force)
     a = smooth.value  # of the excess mass, about as late as the observed force
     found, observer = observe(k.observer, m.observer, seen)
@@ -178,9 +169,8 @@ def observed_push(
     tare = tare_of(k.mass, k.identify, sums, armed)
     push = (force + a * (tare.mass - k.mass) - tare.force) * x.airborne
     moment = (found.moment - tare.moment) * x.airborne - cross(k.payload, push)
-    return concluded(k, R, push, moment, tare.mass, armed), m._replace(
-        observer=observer, specific_force=smooth, sums=sums
-    )
+    after = m._replace(observer=observer, specific_force=smooth, sums=sums)
+    return PushAndState(concluded(k, R, push, moment, tare.mass, armed), after, state, navigated)
 
 
 @law
@@ -193,7 +183,7 @@ def concluded(k: WrenchPush, R: Mat3, push: Vec3, moment: Vec3, mass: Number, ar
         measured_moment=moment,
         force=force,
         moment=turning,
-        point=point_of_application(k, push * armed, turning),
+        point=point_of_application(k.off_center, k.reach, k.least, push * armed, turning),
         payload_mass=mass,
         disagreement=0.0,
         trusted=1.0,
@@ -239,7 +229,7 @@ def start_wrench_push(
         reach=math.inf if payload.span is None else 0.5 * payload.span,
         per_interval=1.0 / interval,
         least=e.min_force**2,
-        **tare_fields(0.0 if e.tare == "hover" else e.tare_start, e.tare_duration, e.identify_mass, interval),
+        **tare_fields(0.0 if e.tare == "hover" else e.tare_start, e.tare_duration, e.identify_mass),
         off_center=off_center_at(payload.center_of_mass),
     )
     still = ThrustState(speeds, undelayed)

@@ -5,8 +5,8 @@ They are held over the step. A flight without a caller has `Absent`.
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra import where
-from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.algebra import chosen
+from tandemlift.core.law import choice, law
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import ZERO, Absent, Mat3, Quat, Vec3, linear, outer, plus
 from tandemlift.parts.interaction.requests import ReferenceVelocity
@@ -64,16 +64,10 @@ def with_caller_push(external: CallerInput, push: PushSamples[Push]) -> PushSamp
     return PushSamples(with_force(push.start, F, r), with_force(push.middle, F, r), with_force(push.end, F, r))
 
 
-@elementwise
-def overridden(thrust: Number, given: Number, override: Number) -> Number:
-    """The thrust of one rotor [N]."""
-    return where(override > 0.0, given, thrust)
-
-
 @law(absent="thrusts")
 def commanded_thrusts(external: CallerInput, thrusts: PerRotor) -> PerRotor:
     """The commanded thrusts [N], where the pilot commands `thrusts`."""
-    return overridden(thrusts, external.thrusts, external.override)
+    return chosen(external.override, external.thrusts, thrusts)
 
 
 @law(absent=Absent())

@@ -155,6 +155,7 @@ def dead_band(k: DeadBand[V], m: DeadBandState[V], force: V, enabled: Number, dt
     active = is_active(m.active, above, f, k.threshold, k.release, k.dwell) * enabled
     inactive = time_inactive(m.inactive_time, active, dt) * enabled
     deviation = bias_input(force - m.mean, k.threshold * BIAS_CLIP, inactive)
+    # a push that begins resets the mean, so that what came before the dwell does not become bias
     mean = unless_active(active, m.bias, m.mean + deviation * (k.bias_rate * dt))
     bias = m.bias + (mean - m.bias) * (BIAS_RATE * dt)
     return soft_threshold(f, k.threshold) * active, DeadBandState(active, above, inactive, mean, bias)
@@ -234,6 +235,7 @@ def compliance_step(
     free = led_by(lead, k.limits, m.velocity, enabled, response)
     bounded = speed_limited(free, m.velocity, k.limits.speed, k.limits.braking_gain)
     target = within(boundary, with_horizontal_limit(bounded, horizontal))
+    # the jerk is limited last, so that no other limit makes the acceleration jump
     acceleration = moved_towards(m.acceleration, target, k.limits.jerk * dt)
     position = m.position + m.velocity * dt + acceleration * (0.5 * dt * dt)
     velocity = m.velocity + acceleration * dt

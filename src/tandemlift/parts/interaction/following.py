@@ -99,6 +99,7 @@ def exceeded_for(time: Number, value: Number, limit: Number, active: Number, dt:
 @law
 def first_reason(k: FollowingLimits, m: FollowingState) -> Number:
     """The number of the first limit that has been exceeded for its time, or 0."""
+    # from the last reason to the first, which thus takes precedence
     number = 0.0
     for i, reason in reversed(list(enumerate(REASONS, start=1))):
         number = where(getattr(m, reason.key) > k.time, float(i), number)

@@ -57,7 +57,7 @@ def passage_checks(
 
 
 def grip_along(p: PersonTable, vehicle: Vehicle) -> float:
-    """Where a hand holds the payload, along body y from the vehicle's centre of mass [m]."""
+    """The place at which a hand holds the payload, along body y from the vehicle's centre of mass [m]."""
     return float(p.grip + vehicle.origin[1])
 
 
@@ -127,6 +127,7 @@ def trailing(grips: Array, grip: float, yaw: float) -> Places | None:
     """The places of a vehicle behind a grip that is led along a path; None if the grip is at the centre."""
     if grip == 0.0:
         return None
+    # the centre of mass is on the other side of the grip if the grip is at the other end
     behind = grips[0] - abs(grip) * math.copysign(1.0, grip) * np.array([-math.sin(yaw), math.cos(yaw)])
     centres, headings = [], []
     for at in grips:

@@ -15,7 +15,7 @@ quasi-linear pilot models, 1967; pure pursuit, Coulter, Implementation of the pu
 
 from __future__ import annotations
 
-from typing import Any, Generic, NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from tandemlift.core.algebra import clip, maximum, minimum, sqrt, where
 from tandemlift.core.law import Absent, choice, law
@@ -150,13 +150,6 @@ class HandTarget(NamedTuple):
     across: Vec3
 
 
-class PersonOutput(NamedTuple, Generic[M]):
-    """A person's part of a step: the push with theirs, and their new memory."""
-
-    push: PushSamples[Push]
-    memory: M
-
-
 @law
 def person_view(grip: Vec3, s: State) -> PersonView:
     """The view of a vehicle in state `s`, without delay."""
@@ -182,6 +175,7 @@ def pursue(w: PathFollowing, leg: PathLeg, p: Vec3, v: Vec3) -> Vec3:
     slower = minimum(w.speed, w.approach_gain * sqrt(maximum(dot(left, left), TINY)))
     speed = where(leg.stops > 0.0, slower, w.speed)
     force = (way * (speed / sqrt(maximum(dot(way, way), TINY))) - v) * w.gain
+    # longer by the force below which the vehicle does not move, and still continuous at zero
     extra = w.breakaway_force
     return force * (1.0 + extra / sqrt(dot(force, force) + maximum(extra * extra, TINY)))
 
@@ -244,18 +238,11 @@ def advance_on_path(k: Person, m: PersonState, t: Number, dt: Number) -> PersonS
     return m._replace(index=m.index + over * (1.0 - last), dwelled=dwelled, begun=begun, landing=landing)
 
 
-@choice
+@choice(absent=("push", "memory"))
 def person_step(
     person: object, memory: M, push: PushSamples[Push], state: State, noise: TremorNoise | Absent, t: Number, dt: Number
-) -> PersonOutput[M]:
-    """A person's part of a step: `PersonOutput`. `state` is the true one; `noise`: standard normals."""
-
-
-@person_step.register(Absent)
-def _nobody(
-    person: Absent, memory: Absent, push: PushSamples[Push], state: State, noise: Absent, t: Number, dt: Number
-) -> PersonOutput[Absent]:
-    return PersonOutput(push, memory)
+) -> tuple[PushSamples[Push], M]:
+    """(The push with that of a person, their new memory). `state` is the true one; `noise`: standard normals."""
 
 
 @person_step.register(Person)
@@ -267,7 +254,7 @@ def _guiding(
     noise: TremorNoise,
     t: Number,
     dt: Number,
-) -> PersonOutput[PersonState]:
+) -> tuple[PushSamples[PointPush], PersonState]:
     m, now, arm = advance_on_path(person, memory, t, dt), person_view(person.grip, state), person.arm
     target, holding = hand_target(person, m), m.begun * (1.0 - m.landing)
     idle = m.view.grip + m.view.grip_velocity * arm.horizon
@@ -280,8 +267,13 @@ def _guiding(
         trim=bounded(trim, arm.max_force) * holding,
         tremor=tremor_step(arm.tremor, m.tremor, noise),
     )
-    more = push_by(person, after, now, state)
-    return PersonOutput(PushSamples(push.start + more, push.middle + more, push.end + more), after)
+    return added(push, push_by(person, after, now, state)), after
+
+
+@law
+def added(push: PushSamples[PointPush], hand: PointPush) -> PushSamples[PointPush]:
+    """A push over a step with that of a hand, which is held over it."""
+    return PushSamples(push.start + hand, push.middle + hand, push.end + hand)
 
 
 @choice(absent=0.0)

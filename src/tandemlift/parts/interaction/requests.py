@@ -126,7 +126,13 @@ def with_operator(requests: RequestCounts, operator: OperatorRequest, lifts: Num
     )
 
 
-PADDED = 4  # the number of requests is rounded up to a multiple: it is a part of the compiled variant
+MULTIPLE = 4  # of the size of a set that a mission may lengthen: each size is a compiled variant
+
+
+def padded_set(values: Sequence[float], rest: float = 0.0) -> NumberSet:
+    """The values as a set, which is filled up to a multiple of four with `rest`."""
+    filled = [*values, *[rest] * (-len(values) % MULTIPLE)]
+    return each(len(filled))(*filled)
 
 
 def start_requests(tables: Sequence[RequestTable]) -> RequestSchedule | Absent:
@@ -141,15 +147,15 @@ def start_requests(tables: Sequence[RequestTable]) -> RequestSchedule | Absent:
         after = {"enable": 1.0, "disable": 0.0}.get(r.action, before)
         changes.append(after - before)
         before = after
-    spare = -len(requests) % PADDED
-    cls = each(len(requests) + spare)
-
-    def column(values: list[float], rest: float = 0.0) -> NumberSet:
-        return cls(*values, *[rest] * spare)
-
-    lift, land, stop = ([float(r.action == what) for r in requests] for what in ("lift", "land", "stop"))
-    times = column([r.time for r in requests], NEVER)
-    return RequestSchedule(times, column(lift), column(land), column(stop), column(changes), first)
+    lift, land, stop = ([float(r.action == action) for r in requests] for action in ("lift", "land", "stop"))
+    return RequestSchedule(
+        time=padded_set([r.time for r in requests], NEVER),
+        lift=padded_set(lift),
+        land=padded_set(land),
+        stop=padded_set(stop),
+        change=padded_set(changes),
+        enabled=first,
+    )
 
 
 def request_checks(tables: Sequence[RequestTable], guidance: str) -> Iterator[CheckResult]:

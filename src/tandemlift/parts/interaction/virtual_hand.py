@@ -22,7 +22,7 @@ from tandemlift.core.algebra import where
 from tandemlift.core.law import Absent, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Vec3, outer
-from tandemlift.parts.interaction.person import PersonOutput, bounded, landing_request, person_step, person_view
+from tandemlift.parts.interaction.person import added, bounded, landing_request, person_step, person_view
 from tandemlift.parts.interaction.requests import OperatorRequest, operator_request
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.parts.mechanics.push import PointPush, PushSamples
@@ -85,34 +85,26 @@ def start_place(h: VirtualHandInput, m: VirtualHandState, here: Vec3, velocity: 
     return LowPassState(m.place.value * kept + here * fresh, m.place.rate * kept + velocity * fresh)
 
 
-@law
-def pull_by(k: VirtualHand, m: VirtualHandState, state: State) -> tuple[PointPush, VirtualHandState]:
-    """(push over a step, the memory after it) of a hand at a body in a state."""
-    h, now = k.hand, person_view(k.hand.grip, state)
-    place = low_pass_step(
-        k.lag, start_place(h, m, now.grip, now.grip_velocity), h.target * h.held + now.grip * (1.0 - h.held)
-    )
-    grasp, force = low_pass_step(k.lag, m.grasp, h.held), low_pass_step(k.lag, m.force, h.force)
-    spring = ((place.value - now.grip) * k.stiffness - now.grip_velocity * k.damping) * grasp.value
-    push = bounded(spring + force.value, k.max_force)
-    after = VirtualHandState(
-        place, grasp, force, holding=h.held, lift=h.lift, land=h.land, stop=h.stop, enabled=h.enabled
-    )
-    return PointPush(push, outer(push, h.grip)), after
-
-
 @person_step.register(VirtualHand)
 def _pulling(
-    person: VirtualHand,
-    memory: VirtualHandState,
+    k: VirtualHand,
+    m: VirtualHandState,
     push: PushSamples[PointPush],
     state: State,
     noise: Absent,
     t: Number,
     dt: Number,
-) -> PersonOutput[VirtualHandState]:
-    more, after = pull_by(person, memory, state)
-    return PersonOutput(PushSamples(push.start + more, push.middle + more, push.end + more), after)
+) -> tuple[PushSamples[PointPush], VirtualHandState]:
+    h, now = k.hand, person_view(k.hand.grip, state)
+    target = h.target * h.held + now.grip * (1.0 - h.held)
+    place = low_pass_step(k.lag, start_place(h, m, now.grip, now.grip_velocity), target)
+    grasp, force = low_pass_step(k.lag, m.grasp, h.held), low_pass_step(k.lag, m.force, h.force)
+    spring = ((place.value - now.grip) * k.stiffness - now.grip_velocity * k.damping) * grasp.value
+    pull = bounded(spring + force.value, k.max_force)
+    after = VirtualHandState(
+        place, grasp, force, holding=h.held, lift=h.lift, land=h.land, stop=h.stop, enabled=h.enabled
+    )
+    return added(push, PointPush(pull, outer(pull, h.grip))), after
 
 
 @landing_request.register(VirtualHandState)

@@ -24,8 +24,8 @@ from tandemlift.core.errors import CheckResult, judged, refused
 from tandemlift.core.keys import NonNegative, Positive, Positive3, Table, key
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import GRAVITY, Array, Number, NumberSet
-from tandemlift.core.vector import Absent, Vec3, each, total
-from tandemlift.parts.interaction.requests import ReferenceVelocity
+from tandemlift.core.vector import Absent, Vec3, total
+from tandemlift.parts.interaction.requests import ReferenceVelocity, padded_set
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.mechanics.trajectories import PhasesTable, smoothstep
 from tandemlift.parts.rotors.hover import HoverFacts
@@ -40,7 +40,6 @@ AXES = {
     "y": "position along world y",
     "z": "position along world z",
 }
-PADDED = 4  # the number of lines of an axis is rounded up to a multiple: it is a part of the compiled variant
 
 
 class LineTable(Table):
@@ -177,6 +176,7 @@ def start_excitation(table: ExcitationTable) -> Excitation | Absent:
     """The excitation, or `Absent`."""
     if table.model == "none":
         return Absent()
+    # the fall ends a ramp before the end, in which the reference comes to rest
     end, along = table.begin + table.duration, {axis: sines_from(table.lines, axis) for axis in AXES}
     moves = any(not isinstance(along[axis], Absent) for axis in MOTION)
     motion = ReferenceSines(*[along[axis] for axis in MOTION]) if moves else Absent()
@@ -198,14 +198,11 @@ def sines_from(lines: Sequence[LineTable], axis: str) -> Sines | Absent:
     mine = [line for line in lines if line.axis == axis]
     if not mine:
         return Absent()
-    spare = [0.0] * (-len(mine) % PADDED)
-    cls = each(len(mine) + len(spare))
-    columns = (
-        [line.amplitude for line in mine],
-        [2.0 * math.pi * line.frequency for line in mine],
-        [line.phase for line in mine],
+    return Sines(
+        amplitude=padded_set([line.amplitude for line in mine]),
+        omega=padded_set([2.0 * math.pi * line.frequency for line in mine]),
+        phase=padded_set([line.phase for line in mine]),
     )
-    return Sines(*[cls(*column, *spare) for column in columns])
 
 
 def time_checks(table: ExcitationTable, phases: PhasesTable, step: float, end: float) -> Iterator[CheckResult]:

@@ -222,6 +222,7 @@ def eigenvalues_by_axis(L: NDArray[np.complex128]) -> NDArray[np.complex128]:
     values, vectors = np.linalg.eig(L)
     orders = np.array(list(itertools.permutations(range(4))))
     found, before = np.empty_like(own), np.eye(4)
+    # from the highest frequency on, where the axes do not mix
     for k in reversed(range(len(L))):
         alike = np.abs(before.conj().T @ vectors[k])
         order = orders[alike[np.arange(4), orders].sum(axis=1).argmax()]

@@ -58,16 +58,15 @@ def with_mesh(payload: dict[str, Any]) -> dict[str, Any]:
             raise InputError(f"{name} = {shown(value)}: must be a number above 0")
     body = _body(path, Path(path).stat().st_mtime_ns if Path(path).exists() else 0, float(scale))
     per_volume = number if density is not None else number / body.volume
-    tensor = per_volume * body.tensor
-    (x, xy, xz), (_, y, yz), (_, _, z) = tensor.tolist()
     kept = {name: value for name, value in payload.items() if name not in ("mesh", "mesh_scale", "density")}
-    return kept | {
-        "mass": float(per_volume * body.volume),
-        "center_of_mass": body.center.tolist(),
-        "inertia": [x, y, z],
-        "products": [xy, xz, yz],
-        "corners": [list(corner) for corner in body.corners],
-    }
+    found = _mass_keys(float(per_volume * body.volume), body.center, per_volume * body.tensor)
+    return kept | found | {"corners": [list(corner) for corner in body.corners]}
+
+
+def _mass_keys(mass: float, center: Array, tensor: Array) -> dict[str, Any]:
+    """The keys of a payload for its mass [kg], centre of mass (3) [m] and inertia about it (3 × 3) [kg m²]."""
+    (x, xy, xz), (_, y, yz), (_, _, z) = tensor.tolist()
+    return {"mass": mass, "center_of_mass": center.tolist(), "inertia": [x, y, z], "products": [xy, xz, yz]}
 
 
 @functools.lru_cache(maxsize=16)
@@ -121,6 +120,7 @@ def few_corners(points: Array) -> tuple[ConvexHull, float]:
         """Of the points that are farthest out, the one farthest from the middle, which is a corner."""
         return int(np.where(out >= out.max() - ALIKE * extent, away, -1.0).argmax())
 
+    # a first tetrahedron: two ends, the point farthest from their line, and from the plane of all three
     a = farthest(away)
     b = farthest(np.linalg.norm(points - points[a], axis=1))
     along, off = (points[b] - points[a]) / np.linalg.norm(points[b] - points[a]), points - points[a]
@@ -154,8 +154,7 @@ def with_bodies(payload: dict[str, Any]) -> dict[str, Any]:
     parts = [(body.mass, *solid(body)) for body in bodies]
     center = sum((m * place for m, place, _ in parts), np.zeros(3)) / mass
     tensor = sum((J + parallel_axis_term(m, place - center) for m, place, J in parts), np.zeros((3, 3)))
-    (x, xy, xz), (_, y, yz), (_, _, z) = tensor.tolist()
-    made = {"mass": mass, "center_of_mass": center.tolist(), "inertia": [x, y, z], "products": [xy, xz, yz]}
+    made = _mass_keys(mass, center, tensor)
     for name, value in made.items():
         if name in payload and not np.allclose(payload[name], value, SAME, SAME * np.max(np.abs(value))):
             raise InputError(f"{name} = {shown(payload[name])}: must be left out, because it comes from bodies")

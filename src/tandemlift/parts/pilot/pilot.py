@@ -18,12 +18,11 @@ from tandemlift.parts.estimation.disturbance_observer import (
     DisturbanceEstimate,
     DisturbanceObserver,
     ObserverState,
-    last_known,
     observer_step,
+    unmodelled,
 )
 from tandemlift.parts.guidance.guidance import (
     Guidance,
-    PilotInput,
     checked_input,
     guide,
     running,
@@ -31,6 +30,7 @@ from tandemlift.parts.guidance.guidance import (
     with_force,
     with_wall,
 )
+from tandemlift.parts.guidance.guidance import PilotInput as PilotInput
 from tandemlift.parts.guidance.hand_guidance import HandGuidance, HandGuidanceState
 from tandemlift.parts.guidance.scheduled_guidance import ScheduledGuidance
 from tandemlift.parts.interaction.admittance import AdmittanceState
@@ -38,17 +38,6 @@ from tandemlift.parts.pilot.excitation import Excitation, excited, excited_lead
 from tandemlift.parts.pilot.rotor_lead import RotorLead, RotorLeadState, lead_step
 from tandemlift.parts.rotors.allocation import AllocationState, ConstrainedAllocation, Mixer, allocate
 from tandemlift.parts.rotors.detection import DetectionState, RotorLossDetection, detection_step, failed_rotors
-
-__all__ = [
-    "ControlInput",
-    "Decision",
-    "PilotInput",
-    "PilotMemory",
-    "PilotParameters",
-    "control_input",
-    "decide",
-    "with_command",
-]
 
 
 class PilotParameters(NamedTuple):
@@ -110,12 +99,14 @@ def last_total_thrust(allocation: AllocationState) -> Number:
 def control_input(p: PilotParameters, m: PilotMemory, pilot_input: PilotInput, t: Number, dt: Number) -> ControlInput:
     """The input of the controller at time t [s]."""
     pilot_input = pilot_input._replace(lead=excited_lead(p.excitation, pilot_input.lead, t))
-    before, failed = last_known(p.observer, m.observer), failed_rotors(p.detection, m.detection, t)
+    before, failed = unmodelled(p.observer, m.observer), failed_rotors(p.detection, m.detection, t)
     pilot_input = checked_input(p.guidance, m.guidance, pilot_input, last_total_thrust(m.allocation), failed)
     guidance, guidance_memory = guide(p.guidance, m.guidance, pilot_input, before, failed, t, dt)
+    # those of this sample are not known yet: the controller has not commanded
     thrusts = last_thrusts(m.allocation)
     flying, learning = guidance.flying, guidance.learning
     known = with_wall(guidance.wall, pilot_input._replace(push=with_force(guidance.inertial, pilot_input.push)))
+    # after the guidance, which knows whether feet touch the floor: then nothing is learned
     estimate, observer_memory = observer_step(p.observer, m.observer, known, thrusts, flying, learning, dt)
     watched = flying * learning * untouched(guidance.wall)
     detection_memory = detection_step(p.detection, m.detection, pilot_input, thrusts, watched, t, dt)

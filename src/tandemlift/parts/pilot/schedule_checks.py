@@ -51,6 +51,7 @@ class Schedule(NamedTuple):
         threshold, damping = a.threshold[2], a.damping[2]
         if abs(force) <= threshold or damping == 0.0 or a.stiffness[2] > 0.0:
             return 0.0
+        # the push is above the threshold for `half` seconds on each side of its peak
         half = push.sigma * math.sqrt(2.0 * math.log(abs(force) / threshold)) if threshold > 0.0 else 8.0 * push.sigma
         impulse = abs(force) * push.sigma * math.sqrt(2.0 * math.pi) * math.erf(half / (push.sigma * math.sqrt(2.0)))
         if a.gate == "soft" or c is not None:

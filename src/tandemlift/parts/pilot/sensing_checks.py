@@ -39,7 +39,14 @@ def sensing_checks(
         yield from wind_checks(schedule, estimator, wind)
     bandwidths = push_bandwidths(pilot, estimator, schedule.compliance)
     if estimator.wrench == "joints":
-        yield noise_check(noise_of(sensors, wind.vehicle, bandwidths, wind.step), min(schedule.admittance.threshold))
+        value = NOISE_SIGMAS * noise_of(sensors, wind.vehicle, bandwidths, wind.step)
+        threshold = min(schedule.admittance.threshold)
+        text = (
+            f"sensors make {value:.3g} N of noise ({NOISE_SIGMAS:g} standard deviations) of the measured push, and "
+            f"admittance.threshold = {threshold:g} N: noise is followed as a push; raise the threshold, or lower "
+            "sensors.joints.force_noise or compliance.input_bandwidth"
+        )
+        yield judged("noise", value, threshold, "N", text)
     slowest = None
     if pilot.state == "estimate":
         slowest = 1.0 / max(estimator.position_bandwidth, estimator.attitude_bandwidth)
@@ -97,6 +104,7 @@ def noise_of(s: SensorsTable, vehicle: Vehicle, bandwidths: Sequence[float], ste
         often = max(interval, step)
         return noise * noise_scale(s, often) * math.sqrt(min([0.25 * b * often for b in bandwidths] + [1.0]))
 
+    # the push is m a − Σ f: the variances of N joints and of the accelerometer add
     joints = left(s.joints.force_noise, s.interval if s.joints.interval is None else s.joints.interval)
     return math.hypot(math.sqrt(vehicle.count) * joints, left(vehicle.payload.mass * s.accelerometer.noise, s.interval))
 
@@ -118,29 +126,18 @@ def drift_after(lasting: float, joints: JointSensors, *, tared: bool) -> SensorD
     return SensorDrift(force, torque, f"of {lasting:.3g} s" if tared else "and bias, as there is no tare,")
 
 
-def noise_check(noise: float, threshold: float) -> CheckResult:
-    """Compare the noise of joint sensors and accelerometer [N] with the smallest threshold [N]."""
-    value = NOISE_SIGMAS * noise
-    text = (
-        f"sensors make {value:.3g} N of noise ({NOISE_SIGMAS:g} standard deviations) of the measured push, and "
-        f"admittance.threshold = {threshold:g} N: noise is followed as a push; raise the threshold, or lower "
-        "sensors.joints.force_noise or compliance.input_bandwidth"
-    )
-    return judged("noise", value, threshold, "N", text)
-
-
 def sampling_checks(s: SensorsTable, push: float, estimate: float | None) -> Iterator[CheckResult]:
     """Compare sampling intervals plus delays with the largest for a push, and for an estimate [s]."""
-    served = [("sensors", s.interval, s.delay, push, "pushes are detected too late, or missed")]
+    late = "pushes are detected too late, or missed"
+    served = [("sensors", s.interval, s.delay, push, late)]
     if s.joints.interval is not None and s.joints.model != "none":
-        served.append(("sensors.joints", s.joints.interval, s.delay, push, "pushes are detected too late, or missed"))
+        served.append(("sensors.joints", s.joints.interval, s.delay, push, late))
     if estimate is not None:
         served.append(("sensors.motion", s.motion.interval, s.motion.delay, estimate, "the estimate drifts and jumps"))
     for key, interval, delay, serves, then in served:
         limit = max(serves, SELDOM)
         text = (
             f"{key}.interval = {interval:g} s and {key.removesuffix('.joints')}.delay = {delay:g} s make more than "
-            f"{limit:.3g} s: {then}; "
-            "lower them"
+            f"{limit:.3g} s: {then}; lower them"
         )
         yield judged("sampling", interval + delay, limit, "s", text, subject=key)

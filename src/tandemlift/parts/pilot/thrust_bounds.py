@@ -1,4 +1,4 @@
-"""What bounds of a pilot's thrusts need: its thrusts as a function of a state off hover, and where its laws bend."""
+"""The thrusts of a pilot as a function of a state off hover, and where its laws bend: for bounds of the thrusts."""
 
 from __future__ import annotations
 

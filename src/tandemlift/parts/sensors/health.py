@@ -142,18 +142,6 @@ def any_of_sets(v: Vec3) -> Number:
     return minimum(total(v.x) + total(v.y) + total(v.z), 1.0)
 
 
-@law
-def not_finite_of_sets(v: Vec3) -> Number:
-    """1 if any number in a vector of sets is not finite, else 0."""
-    return any_of_sets(Vec3(not_finite(v.x), not_finite(v.y), not_finite(v.z)))
-
-
-@law
-def out_of_range_of_sets(v: Vec3, largest: Number) -> Number:
-    """1 if any number in a vector of sets is out of range, else 0."""
-    return any_of_sets(Vec3(out_of_range(v.x, largest), out_of_range(v.y, largest), out_of_range(v.z, largest)))
-
-
 @choice(instead={NoLimits: SampleChecks(0.0, 0.0, 0.0)})
 def check_sample(limits: SensorLimits, sample: tuple[Vec3 | Quat, ...], last: tuple[Vec3 | Quat, ...]) -> SampleChecks:
     """The `SampleChecks` of a sample; it and the one before it are tuples of the sensor's quantities."""
@@ -171,13 +159,15 @@ def _check_vector(k: VectorLimits, sample: tuple[Vec3], last: tuple[Vec3]) -> Sa
 
 @check_sample.register(JointLimits)
 def _check_joints(k: JointLimits, sample: tuple[Vec3, Vec3], last: tuple[Vec3, Vec3]) -> SampleChecks:
-    force, torque = sample
-    f, t, g, s = force, torque, last[0], last[1]
+    f, t, g, s = *sample, *last
     differing = differs(f.x, g.x) + differs(f.y, g.y) + differs(f.z, g.z)
+    differing = differing + differs(t.x, s.x) + differs(t.y, s.y) + differs(t.z, s.z)
+    large_force = any_of_sets(Vec3(*[out_of_range(x, k.force) for x in f]))
+    large_torque = any_of_sets(Vec3(*[out_of_range(x, k.torque) for x in t]))
     return SampleChecks(
-        not_finite=maximum(not_finite_of_sets(force), not_finite_of_sets(torque)),
-        out_of_range=maximum(out_of_range_of_sets(force, k.force), out_of_range_of_sets(torque, k.torque)),
-        identical=minimum(total(is_zero(differing + differs(t.x, s.x) + differs(t.y, s.y) + differs(t.z, s.z))), 1.0),
+        not_finite=maximum(any_of_sets(Vec3(*map(not_finite, f))), any_of_sets(Vec3(*map(not_finite, t)))),
+        out_of_range=maximum(large_force, large_torque),
+        identical=minimum(total(is_zero(differing)), 1.0),
     )
 
 
@@ -186,7 +176,7 @@ def _check_attitude(k: AttitudeLimits, sample: tuple[Quat], last: tuple[Quat]) -
     q, before = sample[0], last[0]
     square = dot(q, q)
     off = absolute(sqrt(maximum(square, 0.0)) - 1.0)
-    differing = differs(q.w, before.w) + differs(q.x, before.x) + differs(q.y, before.y) + differs(q.z, before.z)
+    differing = total(map(differs, q, before))
     return SampleChecks(not_finite(square), out_of_range(off, UNIT_NORM), is_zero(differing))
 
 

@@ -24,7 +24,7 @@ from tandemlift.core.algebra import clip, maximum, sqrt, where
 from tandemlift.core.arrays import array
 from tandemlift.core.law import STAIRCASES, choice, elementwise
 from tandemlift.core.types import Array, Number, number
-from tandemlift.core.vector import ZERO, Absent, Mat3, Quat, Vec3, apply, each, is_set, spread, vec3
+from tandemlift.core.vector import ZERO, Absent, Mat3, Quat, Vec3, apply, is_set, spread, vec3
 from tandemlift.parts.mechanics.rotation import quaternion_from_rotation_vector, rotated_by, rotation_from_quaternion
 
 ROUNDING = 6755399441055744.0  # 1.5 · 2⁵²: a sum with it has no fraction left
@@ -46,34 +46,36 @@ class SensorGrade(NamedTuple):
     misalignment: ArrayLike = 0.0
 
 
-PERFECT = SensorGrade()
+class SensorErrors(NamedTuple):
+    """The errors of a sensor of the unit U, besides its bias.
 
-
-class SensorModel(NamedTuple):
-    """A sensor of a vector, of the unit U; if there is one on every quadrotor, `axes` and `bias` are of sets.
-
-    Rows of `axes`: the sensor's axes in body axes. `noise` σ and `walk` w [U] multiply a sample's normals. `per_step`:
-    1/`step` [1/U], or 0 if that is 0.
+    `noise` σ and `walk` w [U] multiply a sample's normals; it reads up to ±`limit` [U] in steps of `step` [U];
+    `per_step`: 1/`step` [1/U], or 0 if that is 0.
     """
 
-    axes: Mat3
-    bias: Vec3
     noise: Number
     walk: Number
     limit: Number
     step: Number
     per_step: Number
+
+
+class SensorModel(NamedTuple):
+    """A sensor of a vector; if there is one on every quadrotor, `axes` and `bias` are of sets.
+
+    Rows of `axes`: the sensor's axes in body axes.
+    """
+
+    axes: Mat3
+    bias: Vec3
+    errors: SensorErrors
 
 
 class ScalarSensorModel(NamedTuple):
     """A sensor of a number; as `SensorModel`, without axes."""
 
     bias: Number
-    noise: Number
-    walk: Number
-    limit: Number
-    step: Number
-    per_step: Number
+    errors: SensorErrors
 
 
 class WhiteNoise(NamedTuple):
@@ -122,17 +124,15 @@ def read(model: ChannelModel, drift: Drift, truth: S, normals: Drift) -> S:
 
 @read.register(SensorModel)
 def _read_vector(k: SensorModel, drift: Vec3, truth: Vec3, normals: Vec3) -> Vec3:
-    v = apply(k.axes, truth) + k.bias + drift + normals * k.noise
-    return Vec3(
-        displayed(v.x, k.limit, k.step, k.per_step),
-        displayed(v.y, k.limit, k.step, k.per_step),
-        displayed(v.z, k.limit, k.step, k.per_step),
-    )
+    e = k.errors
+    v = apply(k.axes, truth) + k.bias + drift + normals * e.noise
+    return Vec3(*[displayed(component, e.limit, e.step, e.per_step) for component in v])
 
 
 @read.register(ScalarSensorModel)
 def _read_scalar(k: ScalarSensorModel, drift: Number, truth: Number, normals: Number) -> Number:
-    return displayed(truth + k.bias + drift + normals * k.noise, k.limit, k.step, k.per_step)
+    e = k.errors
+    return displayed(truth + k.bias + drift + normals * e.noise, e.limit, e.step, e.per_step)
 
 
 @read.register(WhiteNoise)
@@ -153,18 +153,13 @@ def next_drift(model: ChannelModel, drift: D, normals: Drift, fresh: Number) -> 
 @next_drift.register(SensorModel)
 @next_drift.register(ScalarSensorModel)
 def _random_walk(k: ScalarSensorModel | SensorModel, drift: V, normals: V, fresh: Number) -> V:
-    return drift + normals * (k.walk * fresh)
-
-
-def no_drift(count: int | None = None) -> Vec3:
-    """The drift of a vector before the first sample; `count`: of quadrotors, None for a single sensor."""
-    return ZERO if count is None else Vec3(*[each(count)(*(0.0,) * count)] * 3)
+    return drift + normals * (k.errors.walk * fresh)
 
 
 def start_drift(model: ChannelModel) -> Drift:
     """The drift before the first sample of a sensor with this model; `Absent` if it does not drift."""
     if isinstance(model, SensorModel):
-        return no_drift(len(model.bias.x) if is_set(model.bias.x) else None)
+        return spread(np.zeros((len(model.bias.x), 3))) if is_set(model.bias.x) else ZERO
     return 0.0 if isinstance(model, ScalarSensorModel) else Absent()
 
 
@@ -173,28 +168,14 @@ def no_noise(model: ChannelModel) -> Drift:
     return ZERO if isinstance(model, (WhiteNoise, AttitudeNoise)) else start_drift(model)
 
 
-def _rows(value: ArrayLike, count: int) -> Array:
-    return np.broadcast_to(array(value), (count, 3))
-
-
 def _sensor_axes(turn: Array) -> Array:
     """Axes (3 × 3, rows) of a sensor rotated by a rotation vector; exactly the body's for a zero vector."""
     return np.array(rotation_from_quaternion(quaternion_from_rotation_vector(vec3(turn)))).T
 
 
-class _Errors(NamedTuple):
-    """The common parameters of models of vectors and of numbers."""
-
-    noise: float
-    walk: float
-    limit: float
-    step: float
-    per_step: float
-
-
-def _errors(grade: SensorGrade, interval: float) -> _Errors:
+def _errors(grade: SensorGrade, interval: float) -> SensorErrors:
     walk, stepped = grade.drift * sqrt(interval), grade.resolution > 0.0
-    return _Errors(
+    return SensorErrors(
         noise=0.5 * (walk + sqrt(walk * walk + 4.0 * grade.noise * grade.noise)),
         walk=walk,
         limit=grade.limit,
@@ -211,15 +192,15 @@ def sensor_model(grade: SensorGrade, interval: float, count: int | None = None) 
         interval: time from sample to sample [s].
         count: number of quadrotors; None for a single sensor.
     """
-    A = np.array([_sensor_axes(turn) for turn in _rows(grade.misalignment, count or 1)])
-    bias = _rows(grade.bias, count or 1)
+    turns, bias = (np.broadcast_to(array(value), (count or 1, 3)) for value in (grade.misalignment, grade.bias))
+    A = np.array([_sensor_axes(turn) for turn in turns])
     return SensorModel(
         Mat3(*[vec3(A[0, i]) if count is None else spread(A[:, i]) for i in range(3)]),
         vec3(bias[0]) if count is None else spread(bias),
-        *_errors(grade, interval),
+        _errors(grade, interval),
     )
 
 
 def scalar_sensor_model(grade: SensorGrade, interval: float) -> ScalarSensorModel:
     """The sensor of a number of this grade, whose `bias` is a number; `interval` from sample to sample [s]."""
-    return ScalarSensorModel(number(grade.bias), *_errors(grade, interval))
+    return ScalarSensorModel(number(grade.bias), _errors(grade, interval))

@@ -9,8 +9,10 @@ last one is held, no longer fresh. Delays from the sensors to the pilot are in t
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cache
-from typing import Any, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
+from types import MappingProxyType
+from typing import Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 from tandemlift.core.algebra import selected, where
 from tandemlift.core.law import law
@@ -18,7 +20,15 @@ from tandemlift.core.types import Number
 from tandemlift.core.vector import Absent, Quat, Vec3
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.sensors.noise_bias_drift import ChannelModel, Drift, Sample, next_drift, read
+from tandemlift.parts.sensors.noise_bias_drift import (
+    ChannelModel,
+    Drift,
+    Sample,
+    next_drift,
+    no_noise,
+    read,
+    start_drift,
+)
 from tandemlift.parts.sensors.sensor_registry import true_value
 
 T = TypeVar("T")
@@ -108,22 +118,13 @@ class Readings(NamedTuple):
     additional: Any = Absent()
 
 
-class Device(Protocol):
-    """A device: the models of its channels, and the steps from one sample to the next."""
-
-    @property
-    def channels(self) -> Channels[ChannelModel]:
-        """Their models."""
-
-    @property
-    def period(self) -> Number:
-        """In steps."""
-
-
 class DeviceModel(NamedTuple):
-    """A device: the models of its channels, and the steps from one sample to the next."""
+    """A device: the models of its channels, and the steps from one sample to the next.
 
-    channels: ImuChannels[ChannelModel] | JointChannels[ChannelModel] | MotionChannels[ChannelModel]
+    An additional sensor has a type of its own with these fields, by which its law is picked.
+    """
+
+    channels: Channels[ChannelModel]
     period: Number
 
 
@@ -176,7 +177,9 @@ def sample_channels(
 
 
 @law
-def sample_device(k: Device, m: DeviceState[R], truth: Channels[Sample], normals: Channels[Drift]) -> DeviceState[R]:
+def sample_device(
+    k: DeviceModel, m: DeviceState[R], truth: Channels[Sample], normals: Channels[Drift]
+) -> DeviceState[R]:
     """The memory of a device after a step: with a fresh sample if one is due, else with the last, no longer fresh."""
     due = m.wait <= 0.0
     fresh, samples = where(due, 1.0, 0.0), sample_channels(k.channels, m.drift, truth, normals)
@@ -213,20 +216,15 @@ def true_motion(state: State) -> MotionChannels[Sample]:
 
 
 @law
-def true_additional(sensor: object, state: State, perfect: PerfectReadings) -> AdditionalChannels[Sample]:
-    """The reading of an additional sensor without errors."""
-    return AdditionalChannels(true_value(sensor, state, perfect))
-
-
-@law
 def sense(
     k: Sensors, m: SensorState, state: State, perfect: PerfectReadings, believed: Quat, noise: SensorNoise
 ) -> tuple[Readings, SensorState]:
     """(Readings, the new memory) of a step in which the pilot's attitude estimate was `believed`."""
     more = [
-        sample_device(sensor, memory, true_additional(sensor, state, perfect), normals)
+        sample_device(sensor, memory, AdditionalChannels(true_value(sensor, state, perfect)), normals)
         for sensor, memory, normals in zip(k.additional, m.additional, noise.additional, strict=True)
     ]
+    # joints first, because the sample of the IMU holds the last one of theirs
     joints = sample_joints(k.joints, m.joints, perfect, noise.joints)
     seen = with_sampled_joints(k.joints, joints, perfect)
     imu = sample_device(k.imu, m.imu, true_imu(state, seen, believed), noise.imu)
@@ -245,3 +243,44 @@ def readings_of(m: SensorState) -> Readings:
 def by_name(names: tuple[str, ...]) -> Any:
     """The type of values by name, one for each additional sensor; `Absent` for none."""
     return NamedTuple("_".join(("ByName", *names)), [(name, Any) for name in names]) if names else Absent
+
+
+def zero_noise(k: Sensors) -> SensorNoise:
+    """Standard normals of 0 for one step of these sensors."""
+    imu, motion = ImuChannels(*map(no_noise, k.imu.channels)), MotionChannels(*map(no_noise, k.motion.channels))
+    more = [AdditionalChannels(*map(no_noise, sensor.channels)) for sensor in k.additional]
+    joints = Absent() if isinstance(k.joints, Absent) else JointChannels(*map(no_noise, k.joints.channels))
+    return SensorNoise(imu, motion, type(k.additional)(*more), joints)
+
+
+def start_sensing(
+    k: Sensors, state: State, perfect: PerfectReadings, believed: Quat, waits: Mapping[str, int] = MappingProxyType({})
+) -> SensorState:
+    """The memory before the first step: readings of a state, with bias but without noise, and not fresh.
+
+    Every device takes its first sample in the first step, or later: `waits` steps, by the name of the device.
+    """
+    noise = zero_noise(k)
+
+    def start(name: str, device: DeviceModel, truth: Any, normals: Any, kind: type[R]) -> DeviceState[R]:
+        drift: Any = type(truth)(*map(start_drift, device.channels))
+        reading = kind._make([*sample_channels(device.channels, drift, truth, normals), 0.0])
+        marked = Seldom() if min(device.period, k.imu.period) > 1.0 else Absent()
+        return DeviceState(reading, drift, float(waits.get(name, 0)), marked)
+
+    joints: DeviceState[JointReading] | Absent = Absent()
+    if not isinstance(k.joints, Absent) and not isinstance(noise.joints, Absent):
+        felt = JointChannels(perfect.joint_force, perfect.joint_torque)
+        joints = start("joints", k.joints, felt, noise.joints, JointReading)
+    names = getattr(k.additional, "_fields", ())
+    more = [
+        start(name, device, AdditionalChannels(true_value(device, state, perfect)), normals, AdditionalReading)
+        for name, device, normals in zip(names, k.additional, noise.additional, strict=True)
+    ]
+    truth = true_imu(state, with_sampled_joints(k.joints, joints, perfect), believed)
+    return SensorState(
+        start("imu", k.imu, truth, noise.imu, ImuReading),
+        start("motion", k.motion, true_motion(state), noise.motion, MotionReading),
+        by_name(names)(*more),
+        joints,
+    )

@@ -43,9 +43,8 @@ def first_sample_checks(table: SensorsTable, step: float) -> Iterator[CheckResul
 
 def range_warnings(table: SensorsTable, vehicle: Vehicle, thrusts: Array) -> Iterator[CheckResult]:
     """Check for sensors whose ranges are exceeded in hover; `thrusts` of all rotors there [N] (N × 4)."""
-    for i, (q, own) in enumerate(zip(vehicle.quadrotors, thrusts, strict=True), 1):
-        if table.joints.model == "none":
-            break
+    quadrotors = () if table.joints.model == "none" else vehicle.quadrotors
+    for i, (q, own) in enumerate(zip(quadrotors, thrusts, strict=False), 1):
         force = own.sum() - q.mass * GRAVITY
         if abs(force) > table.joints.force_range:
             given = f"sensors.joints.force_range = {table.joints.force_range}"

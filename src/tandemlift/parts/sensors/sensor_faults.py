@@ -8,8 +8,7 @@ every device. The type of a fault picks its law; a channel without a fault of it
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from types import MappingProxyType
+from collections.abc import Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 from tandemlift.core.algebra import chosen, where
@@ -27,10 +26,8 @@ from tandemlift.parts.sensors.readings import (
     Readings,
     by_name,
 )
-from tandemlift.parts.sensors.sensor_list import SENSORS, additional_sensor, sensors_named, sensors_on
+from tandemlift.parts.sensors.sensor_list import additional_sensor, sensors_named
 from tandemlift.parts.sensors.sensors_table import SensorFaultTable
-
-EMPTY: Mapping[str, Any] = MappingProxyType({})
 
 
 class SensorFault(NamedTuple):
@@ -121,9 +118,10 @@ def faulty(fault: ChannelFault, x: S, given: S, step: Number) -> S:
 @faulty.register(SensorFault)
 def _faulty_vector(f: SensorFault, x: Vec3, given: Vec3, step: Number) -> Vec3:
     return Vec3(
-        faulty_number(x.x, given.x, f.size.x, f.start, f.end, f.frozen, f.keep, f.poison, step),
-        faulty_number(x.y, given.y, f.size.y, f.start, f.end, f.frozen, f.keep, f.poison, step),
-        faulty_number(x.z, given.z, f.size.z, f.start, f.end, f.frozen, f.keep, f.poison, step),
+        *[
+            faulty_number(now, last, size, f.start, f.end, f.frozen, f.keep, f.poison, step)
+            for now, last, size in zip(x, given, f.size, strict=True)
+        ]
     )
 
 
@@ -139,10 +137,10 @@ def _faulty_attitude(k: AttitudeFault, x: Quat, given: Quat, step: Number) -> Qu
     off = f.size.x * (1.0 - f.keep)
     q = rotated_by(x, f.size * (f.keep * during(f.start, f.end, step)))
     return Quat(
-        faulty_number(q.w, given.w, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
-        faulty_number(q.x, given.x, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
-        faulty_number(q.y, given.y, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
-        faulty_number(q.z, given.z, off, f.start, f.end, f.frozen, f.keep, f.poison, step),
+        *[
+            faulty_number(now, last, off, f.start, f.end, f.frozen, f.keep, f.poison, step)
+            for now, last in zip(q, given, strict=True)
+        ]
     )
 
 
@@ -170,80 +168,7 @@ def apply_faults(k: SensorFaults, m: SensorFaultState, readings: Readings) -> tu
     return after, SensorFaultState(after, n + 1.0)
 
 
-def sensor_fault(kind: str, start: float, end: float, size: Vec3) -> SensorFault:
-    """The fault of one sensor.
-
-    Args:
-        kind: "frozen", "nan", "bias" or "range".
-        start: first step of the fault.
-        end: first step without it.
-        size: of a "bias" or a "range", in the unit of the reading; a rotation about body axes [rad] for the attitude.
-    """
-    frozen, poison = float(kind == "frozen"), math.nan if kind == "nan" else 0.0
-    sized = size if kind in ("bias", "range") else ZERO
-    return SensorFault(start, end, frozen, 0.0 if kind == "range" else 1.0, sized, poison)
-
-
-SOUND = sensor_fault("bias", NEVER, NEVER, ZERO)
-
-
-def fault_of_joints(faults: Sequence[SensorFault]) -> SensorFault:
-    """The faults of the sensors at all joints as one, of sets."""
-    cls = each(len(faults))
-    size = Vec3(*[cls(*[f.size[i] for f in faults]) for i in range(3)])
-    start, end, frozen, keep, poison = (
-        cls(*[getattr(f, name) for f in faults]) for name in ("start", "end", "frozen", "keep", "poison")
-    )
-    return SensorFault(start, end, frozen, keep, size, poison)
-
-
-def all_faults(
-    joints: Sequence[SensorFault],
-    faults: Mapping[str, SensorFault] = EMPTY,
-    stale: Mapping[str, tuple[float, float]] = EMPTY,
-    additional: Sequence[str] = (),
-) -> SensorFaults:
-    """The faults of all sensors.
-
-    Args:
-        joints: of the sensors at each joint, `SOUND` for none; empty without such sensors.
-        faults: by the name of the sensor, of all others that fail.
-        stale: by the name of the device, of those that send no new sample: the first step, and the first that does.
-        additional: names of the additional sensors.
-    """
-    whole = fault_of_joints(joints or [SOUND])
-    by_quantity = {q: faults.get(row.name, SOUND) for row in SENSORS.values() for q in row.quantities}
-    by_quantity |= {"joint_force": whole, "joint_torque": _torque_fault(whole)}
-
-    def device(name: str, channels: Channels[ChannelFault]) -> DeviceFaults:
-        return DeviceFaults(*stale.get(name, (NEVER, NEVER)), channels)
-
-    def alone(name: str) -> DeviceFaults:
-        fault = faults.get(name, SOUND)
-        return device(name, AdditionalChannels(fault if additional_sensor(name).width == 3 else ScalarFault(fault)))
-
-    by_channel: dict[str, ChannelFault] = {**by_quantity, "attitude": AttitudeFault(by_quantity["attitude"])}
-    if not joints:
-        by_channel |= {"joint_force": NoFault(), "joint_torque": NoFault()}
-    imu = ImuChannels(**{q: by_channel[q] for row in sensors_on("imu") for q in row.quantities}, frame=NoFault())
-    motion = MotionChannels(**{q: by_channel[q] for row in sensors_on("motion") for q in row.quantities})
-    return SensorFaults(
-        device("imu", imu), device("motion", motion), by_name(tuple(additional))(*map(alone, additional))
-    )
-
-
-def _torque_fault(force: SensorFault) -> SensorFault:
-    """The fault of the joints' torque that goes with that of their force: an offset is of the force alone."""
-    return force._replace(size=Vec3(*[size - size * force.keep for size in force.size]))
-
-
-def _steps(f: SensorFaultTable, step: float) -> tuple[float, float]:
-    """The first step with a fault, and the first one without it again."""
-
-    def steps(time: float) -> float:
-        return float(round(min(time / step, NEVER)))
-
-    return steps(f.time), NEVER if f.until is None else steps(f.until)
+SOUND = SensorFault(NEVER, NEVER, frozen=0.0, keep=1.0, size=ZERO, poison=0.0)
 
 
 def sensor_faults_from(
@@ -255,9 +180,54 @@ def sensor_faults_from(
         if f.kind == "stale":
             stale[f.sensor] = _steps(f, step)
             continue
-        fault = sensor_fault(f.kind, *_steps(f, step), vec3(f.size))
-        names = sensors_named(f.sensor)
+        fault, names = _fault_from(f, step), sensors_named(f.sensor)
         faults |= dict.fromkeys(names, fault)
         if "joints" in names:
             joints = [fault if f.quadrotor in (None, i) else old for i, old in enumerate(joints, 1)]
-    return all_faults(joints, faults, stale, additional)
+
+    def of(name: str) -> SensorFault:
+        return faults.get(name, SOUND)
+
+    def device(name: str, channels: Channels[ChannelFault]) -> DeviceFaults:
+        return DeviceFaults(*stale.get(name, (NEVER, NEVER)), channels)
+
+    def alone(name: str) -> DeviceFaults:
+        fault = of(name) if additional_sensor(name).width == 3 else ScalarFault(of(name))
+        return device(name, AdditionalChannels(fault))
+
+    force, torque = _faults_of_joints(joints) if joints else (NoFault(), NoFault())
+    imu = ImuChannels[ChannelFault](of("accelerometer"), of("gyroscope"), force, torque, frame=NoFault())
+    motion = MotionChannels[ChannelFault](of("position"), of("velocity"), AttitudeFault(of("attitude")))
+    return SensorFaults(
+        device("imu", imu), device("motion", motion), by_name(tuple(additional))(*map(alone, additional))
+    )
+
+
+def _fault_from(f: SensorFaultTable, step: float) -> SensorFault:
+    start, end = _steps(f, step)
+    return SensorFault(
+        start,
+        end,
+        frozen=float(f.kind == "frozen"),
+        keep=0.0 if f.kind == "range" else 1.0,
+        size=vec3(f.size) if f.kind in ("bias", "range") else ZERO,
+        poison=math.nan if f.kind == "nan" else 0.0,
+    )
+
+
+def _steps(f: SensorFaultTable, step: float) -> tuple[float, float]:
+    """The first step with a fault, and the first one without it again."""
+    until = math.inf if f.until is None else f.until
+    start, end = (float(round(min(time / step, NEVER))) for time in (f.time, until))
+    return start, end
+
+
+def _faults_of_joints(faults: Sequence[SensorFault]) -> tuple[SensorFault, SensorFault]:
+    """The faults of the force sensors at all joints as one, of sets, and those of the torque that go with them."""
+    cls = each(len(faults))
+    size = Vec3(*[cls(*[f.size[i] for f in faults]) for i in range(3)])
+    start, end, frozen, keep, poison = (
+        cls(*[getattr(f, name) for f in faults]) for name in ("start", "end", "frozen", "keep", "poison")
+    )
+    force = SensorFault(start, end, frozen, keep, size, poison)
+    return force, force._replace(size=Vec3(*[s - s * keep for s in size]))  # an offset is of the force alone

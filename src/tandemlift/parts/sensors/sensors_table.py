@@ -37,6 +37,7 @@ STEPS = "at most 10,000 steps"
 OFTEN = "time between samples, rounded to whole steps; 0 samples at every step"
 FIRST = "time of the first sample, rounded to whole steps: offsets stagger the sensors"
 WITHIN = "below the time between samples"
+LATE = "delay of a sample beyond the one step after which any sample is known, rounded to whole steps"
 
 
 class JointSensors(Table):
@@ -103,12 +104,7 @@ class MotionSensor(Table):
     attitude_noise: Size = key(0.0, "rad", f"attitude: {NOISE}, about each body axis")
     interval: Interval = key(0.0, "s", OFTEN)
     first_sample: NonNegative = key(0.0, "s", FIRST, rule=WITHIN)
-    delay: Delay = key(
-        0.0,
-        "s",
-        "delay of a sample beyond the one step after which any sample is known, rounded to whole steps",
-        rule=STEPS,
-    )
+    delay: Delay = key(0.0, "s", LATE, rule=STEPS)
 
 
 AdditionalName: TypeAlias = Literal[tuple(ADDITIONAL)] | str  # type: ignore[valid-type]
@@ -135,12 +131,7 @@ class AdditionalSensorTable(Table):
     range: Positive = key(1e6, THE_SENSORS, RANGE, source=BOUNDLESS)
     interval: Interval = key(0.0, "s", OFTEN)
     first_sample: NonNegative = key(0.0, "s", FIRST, rule=WITHIN)
-    delay: Delay = key(
-        0.0,
-        "s",
-        "delay of a sample beyond the one step after which any sample is known, rounded to whole steps",
-        rule=STEPS,
-    )
+    delay: Delay = key(0.0, "s", LATE, rule=STEPS)
 
 
 class SensorsTable(Table):

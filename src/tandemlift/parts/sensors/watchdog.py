@@ -213,6 +213,7 @@ def watchdog_step(
         motion_seen=maximum(m.motion_seen, v.fresh),
     )
     seen = m.imu_seen * m.motion_seen
+    # this report decides what is substituted; the one below adds what the substituted readings then disagree about
     before = report_of(k, health, m.imu_age, m.motion_age, seen, m.inconsistency)
     kept, attitude_valid = valid_imu(m.valid.imu, readings.imu, health), is_valid(health.attitude)
     attitude = chosen(attitude_valid, v.attitude, m.valid.motion.attitude)

@@ -159,8 +159,8 @@ class Actuation(NamedTuple):
 def with_person(model: FlightModel, inputs: StepInputs, t: Number, dt: Number) -> StepInputs:
     """The inputs of a step, with the push of its caller and that of the person who guides the vehicle."""
     before, noise, push = model.flight_state, inputs.noise.person, with_caller_push(inputs.external, inputs.hand)
-    output = person_step(model.person, before.person, push, before.state, noise, t, dt)
-    return inputs._replace(hand=output.push, person=output.memory)
+    hand, person = person_step(model.person, before.person, push, before.state, noise, t, dt)
+    return inputs._replace(hand=hand, person=person)
 
 
 @law

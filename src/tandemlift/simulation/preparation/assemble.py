@@ -27,10 +27,18 @@ from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.wind import start_wind, wind_noise_of
 from tandemlift.parts.rotors.rotors import ActuatorsTable, start_rotors
-from tandemlift.parts.sensors.readings import Readings, SensorNoise, Sensors, SensorState, by_name, readings_of
+from tandemlift.parts.sensors.readings import (
+    Readings,
+    SensorNoise,
+    Sensors,
+    SensorState,
+    by_name,
+    readings_of,
+    start_sensing,
+)
 from tandemlift.parts.sensors.sensor_faults import sensor_faults_from
 from tandemlift.parts.sensors.sensors_table import SensorsTable, first_samples
-from tandemlift.parts.sensors.start_sensors import sensors_from, start_sensing
+from tandemlift.parts.sensors.start_sensors import sensors_from
 from tandemlift.simulation.loop.external_inputs import InputTables, input_tables_from, near_walls_from, push_kind
 from tandemlift.simulation.loop.fault_tolerant_perception import (
     FaultySensors,

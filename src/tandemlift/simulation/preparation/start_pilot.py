@@ -143,7 +143,7 @@ def start_estimators(
     late = mission.observer.rotor_delay + s.delay
     push, pushed = start_push_estimator(e, s, vehicle, readings.imu, interval, late, floor)
     stopped = each(vehicle.rotor_count)(*[0.0] * vehicle.rotor_count)
-    observer = navigator_from(e, s, vehicle, step)
+    observer = navigator_from(e, s, vehicle.center_of_mass, step)
     navigation, inputs = start_navigation(observer, state), PushInputs(readings, stopped, 0.0, 0.0, interval)
     first = push_and_state(push, pushed, observer, navigation, inputs).push
     drag = vehicle.drag

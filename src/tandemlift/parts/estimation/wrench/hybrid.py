@@ -15,7 +15,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tandemlift.core.types import Number
-from tandemlift.core.vector import ZERO, Vec3
+from tandemlift.core.vector import Vec3
 from tandemlift.parts.estimation.wrench.momentum import explained
 from tandemlift.parts.estimation.wrench.observation import (
     ExternalWrench,
@@ -51,8 +51,3 @@ def _observe(k: HybridObserver, m: HybridState, x: Observation) -> tuple[Externa
     L = explained(m.angular, angular, m.started)
     moment = (angular - L) * k.moment
     return ExternalWrench(force, moment), HybridState(force, L + (modelled_moment(k.body, x) + moment) * x.dt, 1.0)
-
-
-def start_hybrid() -> HybridState:
-    """The memory before the first sample."""
-    return HybridState(ZERO, ZERO, 0.0)

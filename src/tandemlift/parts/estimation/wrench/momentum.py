@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 from tandemlift.core.law import elementwise
 from tandemlift.core.types import Number
-from tandemlift.core.vector import ZERO, Vec3
+from tandemlift.core.vector import Vec3
 from tandemlift.parts.estimation.wrench.observation import (
     ExternalWrench,
     NominalBody,
@@ -66,8 +66,3 @@ def _observe(k: MomentumObserver, m: MomentumState, x: Observation) -> tuple[Ext
         started=1.0,
     )
     return ExternalWrench(force, moment), after
-
-
-def start_momentum() -> MomentumState:
-    """The memory before the first sample."""
-    return MomentumState(ZERO, ZERO, 0.0)

@@ -18,7 +18,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tandemlift.core.types import Number
-from tandemlift.core.vector import ZERO, Vec3
+from tandemlift.core.vector import Vec3
 from tandemlift.parts.estimation.wrench.observation import (
     ExternalWrench,
     NominalBody,
@@ -58,8 +58,3 @@ def _observe(k: NonlinearObserver, m: AuxiliaryState, x: Observation) -> tuple[E
     force = -known + (psi + known) * k.force_decay
     moment = -turning + (psi_turning + turning) * k.moment_decay
     return ExternalWrench(psi + p, psi_turning + p_turning), AuxiliaryState(force, moment, 1.0)
-
-
-def start_disturbance() -> AuxiliaryState:
-    """The memory before the first sample."""
-    return AuxiliaryState(ZERO, ZERO, 0.0)

@@ -8,12 +8,12 @@ from typing import Any, NamedTuple
 
 from tandemlift.core.algebra import exp
 from tandemlift.core.types import Number
-from tandemlift.core.vector import Vec3, vec3
+from tandemlift.core.vector import ZERO, Vec3, vec3
 from tandemlift.parts.estimation.wrench.extended_kalman import ExtendedKalmanFilter, start_filter
-from tandemlift.parts.estimation.wrench.hybrid import HybridObserver, start_hybrid
+from tandemlift.parts.estimation.wrench.hybrid import HybridObserver, HybridState
 from tandemlift.parts.estimation.wrench.kalman import LEAST_NOISE, kalman_observer
-from tandemlift.parts.estimation.wrench.momentum import MomentumObserver, start_momentum
-from tandemlift.parts.estimation.wrench.nonlinear_disturbance import NonlinearObserver, start_disturbance
+from tandemlift.parts.estimation.wrench.momentum import MomentumObserver, MomentumState
+from tandemlift.parts.estimation.wrench.nonlinear_disturbance import AuxiliaryState, NonlinearObserver
 from tandemlift.parts.estimation.wrench.observation import NominalBody, principal
 from tandemlift.parts.estimation.wrench.unscented import start_unscented
 from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable
@@ -65,11 +65,11 @@ def start_wrench_observer(
     force, moment = one - decay, (one - turning_decay) / interval
     changes = vec3(table.force_change), vec3(table.moment_change)
     if name == "momentum":
-        return MomentumObserver(body, force / interval, moment), start_momentum()
+        return MomentumObserver(body, force / interval, moment), MomentumState(ZERO, ZERO, 0.0)
     if name == "hybrid":
-        return HybridObserver(body, force, moment), start_hybrid()
+        return HybridObserver(body, force, moment), HybridState(ZERO, ZERO, 0.0)
     if name == "disturbance-observer":
-        return NonlinearObserver(body, force / interval, moment, decay, turning_decay), start_disturbance()
+        return NonlinearObserver(body, force / interval, moment, decay, turning_decay), AuxiliaryState(ZERO, ZERO, 0.0)
     if name in ("kalman", "fused"):
         return kalman_observer(body, *changes, noise.accelerometer, noise.gyroscope, interval)
     by_mass, by_inertia = changes[0] / body.mass, changes[1] / principal(body.inertia)
