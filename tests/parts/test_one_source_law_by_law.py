@@ -116,7 +116,7 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "a smooth attitude reference": (
         attitude_reference.shape_reference,
         (
-            attitude_reference.SmoothCommandFilter(LOW, attitude_reference.CommandFilter(*[0.0] * 5)),
+            attitude_reference.SmoothCommandFilter(LOW, attitude_reference.CommandFilter(0.0, LOW)),
             attitude_reference.SmoothCommandFilterState(SLOPE, attitude_reference.CommandFilterState(V, V)),
             V,
         ),

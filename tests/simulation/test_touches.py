@@ -32,17 +32,17 @@ def contacts(normals: list[float], places: Any = None) -> PartContacts:
 
 
 def test_a_record_keeps_the_first_touch_the_greatest_force_and_the_impulse():
-    r = record_after(UNTOUCHED, contacts([0.0, 0.0, 0.0]), 0.5, 0.01)
+    r = record_after(contacts([0.0, 0.0, 0.0]), UNTOUCHED, 0.5, 0.01)
     assert r == UNTOUCHED
-    r = record_after(r, contacts([0.0, 2.0, 5.0], [[0, 0, 0], [1, 0, 0], [2, 3, 4]]), 1.0, 0.01)
+    r = record_after(contacts([0.0, 2.0, 5.0], [[0, 0, 0], [1, 0, 0], [2, 3, 4]]), r, 1.0, 0.01)
     assert (r.time, r.part, tuple(r.place)) == (1.0, 3.0, (2.0, 3.0, 4.0))  # the hardest of those that touch at once
-    r = record_after(r, contacts([20.0, 0.0, 0.0], [[9, 9, 9]] * 3), 1.01, 0.01)
+    r = record_after(contacts([20.0, 0.0, 0.0], [[9, 9, 9]] * 3), r, 1.01, 0.01)
     assert (r.time, r.part, tuple(r.place)) == (1.0, 3.0, (2.0, 3.0, 4.0))
     assert (r.force, r.impulse) == (20.0, pytest.approx(0.27))
 
 
 def test_of_parts_that_touch_equally_hard_the_first_counts():
-    r = record_after(UNTOUCHED, contacts([0.0, 3.0, 3.0], [[0, 0, 0], [1, 1, 1], [2, 2, 2]]), 0.0, 0.01)
+    r = record_after(contacts([0.0, 3.0, 3.0], [[0, 0, 0], [1, 1, 1], [2, 2, 2]]), UNTOUCHED, 0.0, 0.01)
     assert (r.part, tuple(r.place)) == (2.0, (1.0, 1.0, 1.0))
 
 

@@ -23,9 +23,16 @@ PARTS = (Vec3, Vec3, Quat, Vec3)  # of a state
 EACH_COUNT = pytest.mark.parametrize("count", [1, 2, 3, 4])
 
 
-def walls_of(vehicle: Vehicle, step: float = STEP, friction: float = 0.4, guard: float = GUARD, **more: Any) -> Walls:
-    more = {"beam": (LENGTH, RADIUS), "payload": -vehicle.center_of_mass, **more}
-    return walls(vehicle.lever_arms, guard, vehicle.mass, vehicle.inertia, step, friction=friction, **more)
+def walls_of(
+    vehicle: Vehicle, friction: float = 0.4, guard: float = GUARD, radius: float | None = RADIUS, **more: Any
+) -> Walls:
+    """Walls about spheres of a radius in place of the quadrotors, and a beam of a radius or none."""
+    spheres = {"guard_radius": guard, "arm": 1e-3, "rotor_radius": 1e-3}  # rotors are in their guard
+    beam = {"length": LENGTH, "radius": radius, "inertia": vehicle.payload.moments}
+    shaped = Vehicle(
+        vehicle.payload.model_copy(update=beam), [q.model_copy(update=spheres) for q in vehicle.quadrotors]
+    )
+    return walls(shaped, vehicle.mass, STEP, friction, **more)
 
 
 def found(w: Walls, table: Any, frame: PartsLayout, s: State) -> Any:

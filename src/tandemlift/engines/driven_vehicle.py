@@ -37,11 +37,10 @@ from tandemlift.parts.mechanics.rigid_body import RigidBody, State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
-from tandemlift.parts.mechanics.wind import Wind, WindModel, WindTable, air_drag_from, wind_loads
+from tandemlift.parts.mechanics.wind import WindModel, WindTable, air_drag_from, wind_loads
 from tandemlift.parts.rotors.allocation import mixer_of
-from tandemlift.parts.rotors.ground_effect import GroundEffect, ground_effect_ratio
+from tandemlift.parts.rotors.ground_effect import GroundEffect, ground_effect_from, ground_effect_ratio
 from tandemlift.parts.rotors.rotor_lag import Lag, lag, lag_step
-from tandemlift.parts.rotors.rotors import ground_effect_from
 
 NO_PUSH = CentralPush(ZERO)
 AT_REST = State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO)
@@ -175,8 +174,8 @@ def driven_body(
         moment=ZERO,
     )
     plant = CompiledPlant(mixer_of(vehicle), body, parts_layout_from(vehicle), Absent(), Absent())
-    surface = Absent() if floor is None else ground_effect_from(vehicle, floor)
-    steady = WindModel(Wind(vec3(air.velocity), Absent()), air_drag_from(vehicle, air.density))
+    surface = ground_effect_from(vehicle, floor)
+    steady = WindModel(vec3(air.velocity), Absent(), air_drag_from(vehicle, air.density))
     wind = steady if air.model == "air" else Absent()
     constants = set_of([k for k in n.thrust_constants for _ in range(4)])
     return DrivenBody(plant, constants, surface, wind, point, step, vec3(vehicle.center_of_mass))

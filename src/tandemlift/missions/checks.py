@@ -32,7 +32,7 @@ from tandemlift.parts.pilot.excitation import time_checks as excitation_time_che
 from tandemlift.parts.pilot.push_checks import on_vehicle_checks
 from tandemlift.parts.pilot.schedule_checks import phase_checks, phase_warnings, wind_warnings
 from tandemlift.parts.pilot.vehicle_checks import vehicle_checks
-from tandemlift.parts.rotors import lift_checks as lifts
+from tandemlift.parts.rotors import authority
 from tandemlift.parts.rotors.detection_table import detection_checks
 from tandemlift.parts.rotors.rotor_faults import fault_checks, fault_warnings
 from tandemlift.parts.rotors.rotors import ActuatorsTable
@@ -57,7 +57,7 @@ def refusals(m: Mission) -> Iterator[CheckResult]:
     yield from vehicle_checks(m.vehicle, m.allocation.weights)
     yield from admittance_checks(m.admittance, step)
     yield from fault_checks(m.faults, count, rotors)
-    yield from lifts.lift_checks(m.hover)
+    yield from authority.lift_checks(m.hover)
     yield from sensors.delay_checks(_delays(m.actuators, s, m.person), step)
     yield from sensors.additional_checks(s)
     yield from sensors.first_sample_checks(s, step)
@@ -108,13 +108,13 @@ def mission_checks(m: Mission) -> Iterator[CheckResult]:
     if guidance == "interactive" and over_floor and p.land_start is not None and p.land_start < end:
         yield from outcomes.landing_promise_warnings(m.promise, guidance, m.compliance.touchdown_depth)
     if m.actuators.model == "rotors":
-        yield from lifts.hover_warnings(hover)
+        yield from authority.hover_warnings(hover)
         yield from fault_warnings(m.faults, hover.weight, hover.faulty_lift, m.allocation.method)
     else:
-        yield from lifts.ideal_lift_warnings(hover)
+        yield from authority.ideal_lift_warnings(hover)
     if simulated:
         yield from sensors.range_warnings(m.sensors, hover.vehicle, hover.thrusts)
-        yield from lifts.payload_warnings(hover)
+        yield from authority.payload_warnings(hover)
         yield from estimator.bias_warnings(e, m.sensors.joints.force_bias, m.pilot.push)
         yield from estimator.tare_warnings(e, p, m.pushes, end)
     if over_floor:

@@ -17,7 +17,7 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.keys import NonNegative, Positive, Table, divisor, key, must
 from tandemlift.missions.outcomes import CrashTable, FindingsTable, OutcomeTable, PromiseTable
 from tandemlift.parts.contact.corridor import CorridorTable, WallTable
-from tandemlift.parts.contact.ground_table import GroundTable
+from tandemlift.parts.contact.standing import GroundTable
 from tandemlift.parts.controllers import ControllerTable
 from tandemlift.parts.estimation.contact_table import ContactTable
 from tandemlift.parts.estimation.disturbance_observer import ObserverTable

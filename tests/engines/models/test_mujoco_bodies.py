@@ -201,7 +201,7 @@ def standing(name="four", changes=None):
     """(body, compiled plant's floor, mission, vehicle): a vehicle whose level feet are just on the floor."""
     mission = tl.load_mission(name, LEVEL | (changes or {}))
     vehicle = Vehicle.from_settings(mission.vehicle)
-    ground = floor(vehicle.soles, vehicle.mass, vehicle.inertia, DT, friction=FRICTION, sinkage=SINKAGE)
+    ground = floor(vehicle, vehicle.mass, DT, friction=FRICTION, sinkage=SINKAGE)
     ground = ground._replace(height=-standing_height(ground, vehicle.weight))
     return MuJoCoBody(mission, vehicle, ground), ground, mission, vehicle
 
@@ -268,8 +268,7 @@ def test_a_vehicle_pressed_against_a_wall_yields_by_the_force_over_the_stiffness
     }
     mission = tl.load_mission("paper", {"initial.position": 0.0, "initial.euler": 0.0} | changes)
     vehicle = Vehicle.from_settings(mission.vehicle)
-    J, look = vehicle.inertia, {"friction": 0.0, "beam": (2.0, 0.05), "payload": -vehicle.center_of_mass}
-    press = walls(vehicle.lever_arms, 0.375, vehicle.mass, J, DT, stiffness=2000.0, **look)
+    J, press = vehicle.inertia, walls(vehicle, vehicle.mass, DT, friction=0.0, stiffness=2000.0)
     body, allocation = MuJoCoBody(mission, vehicle, walls=press), vehicle.allocation()
     for _ in range(8000):
         q, w = body.state[6:10], body.state[10:]
@@ -278,7 +277,7 @@ def test_a_vehicle_pressed_against_a_wall_yields_by_the_force_over_the_stiffness
         body.advance(allocation @ [lift, *moment], CALM, np.array(force), NONE)
     contacts = body.data.contact
     assert len(contacts) == touching
-    pressed = press.stiffness * sum(-contact.dist for contact in contacts)
+    pressed = press.springs.stiffness * sum(-contact.dist for contact in contacts)
     assert pressed == pytest.approx(np.linalg.norm(body.readings[-3:]), rel=1e-3)
     assert np.array(force) @ body.readings[-3:] < 0.0  # the wall pushes back
 

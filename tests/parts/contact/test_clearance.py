@@ -1,19 +1,17 @@
 """How far guards and beam are from walls, against bounded least squares."""
 
 import numpy as np
+from among_walls import GUARD, LENGTH, PAIR, RADIUS, walls_of
 from hypothesis import assume, given
-from law_values import array, paper_vehicle, random_state, seeds
+from law_values import array, random_state, seeds
 from scipy.optimize import lsq_linear
 from scipy.spatial.transform import Rotation
 
 from tandemlift.core.vector import Absent
 from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.parts.contact.clearance import clearance, smaller_clearance
-from tandemlift.parts.contact.walls import nearest_with, no_walls_near, walls
+from tandemlift.parts.contact.walls import nearest_with, no_walls_near
 from tandemlift.parts.mechanics.wall_geometry import wall
-
-PAIR = paper_vehicle()
-GUARD, LENGTH, RADIUS = 0.375, 2.0, 0.05
 
 
 def least(p, columns, bounds):
@@ -27,10 +25,7 @@ def test_clearance_is_that_of_bounded_least_squares(seed):
     rng = np.random.default_rng(seed)
     ends, tops = rng.uniform(-4.0, 4.0, (5, 2, 2)), rng.uniform(-1.0, 3.0, 5)
     table, state = [wall(*e, top) for e, top in zip(ends.tolist(), tops, strict=True)], random_state(rng)
-    w = walls(
-        PAIR.lever_arms, GUARD, PAIR.mass, PAIR.inertia, 0.001, friction=0.5, beam=(LENGTH, RADIUS),
-        payload=-PAIR.center_of_mass,
-    )  # fmt: skip
+    w = walls_of(PAIR)
     frame, near = parts_layout_from(PAIR), no_walls_near(w)
     for one in table:
         near = nearest_with(w, one, near, frame, state)
@@ -49,10 +44,7 @@ def test_clearance_is_that_of_bounded_least_squares(seed):
 
 
 def test_the_lesser_of_two_clearances_is_taken_part_by_part():
-    w = walls(
-        PAIR.lever_arms, GUARD, PAIR.mass, PAIR.inertia, 0.001, friction=0.5, beam=(LENGTH, RADIUS),
-        payload=-PAIR.center_of_mass,
-    )  # fmt: skip
+    w = walls_of(PAIR)
     frame, rng, found = parts_layout_from(PAIR), np.random.default_rng(3), []
     for _ in range(2):
         state = random_state(rng)

@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from tandemlift.core.algebra import sqrt
 from tandemlift.core.law import law
 from tandemlift.core.types import GRAVITY, flat, unflat
-from tandemlift.core.vector import ZERO, Quat, Vec3, dot, vec3
+from tandemlift.core.vector import ZERO, Quarters, Quat, Vec3, dot, spread, vec3
 from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.parts.contact.feet import (
     Floor,
@@ -39,8 +39,8 @@ DEPTH = 0.18
 STEP = 0.001
 
 
-def floor_of(vehicle: Vehicle, step: float = STEP, friction: float = 0.6, **more: float) -> Floor:
-    return floor(vehicle.soles, vehicle.mass, vehicle.inertia, step, friction=friction, **more)
+def floor_of(vehicle: Vehicle, step: float = STEP, friction: float = 0.6) -> Floor:
+    return floor(vehicle, vehicle.mass, step, friction=friction)
 
 
 VEHICLE = paper_vehicle()
@@ -191,7 +191,8 @@ def test_a_floor_without_friction_takes_no_momentum_along_it(flown):
 def near_floor(rng: np.random.Generator, count: int) -> tuple[Floor, PartsLayout, Any, State]:
     """Some feet in the floor and some in the air, in a random state; the grip is that of a state close by."""
     vehicle = random_vehicle(rng, count)
-    ground = floor_of(vehicle, height=rng.uniform(-1.0, 1.0), friction=rng.uniform(0.1, 1.0))
+    height = rng.uniform(-1.0, 1.0)
+    ground = floor_of(vehicle, friction=rng.uniform(0.1, 1.0))._replace(height=height)
     s = random_state(rng)
     s = s._replace(position=s.position._replace(z=ground.height + rng.uniform(-0.1, 0.5)))
     before = s._replace(position=s.position + vec3(1e-3 * rng.standard_normal(3)))
@@ -258,7 +259,8 @@ def test_at_rest_force_and_moment_are_the_slope_of_the_elastic_energy(count, see
 def test_the_standing_height_balances_the_weight_on_feet_of_any_length(seed):
     rng = np.random.default_rng(seed)
     soles = rng.uniform(-1.0, 1.0, (3, 4, 3)) * [1.0, 1.0, 1e-3] - [0.0, 0.0, 0.2]
-    ground = floor(soles, 4.0, np.eye(3), STEP, friction=0.5)
+    feet = np.add(soles, [0.0, 0.0, FLOOR.radius])
+    ground = FLOOR._replace(feet=Quarters(*[spread(feet[:, j]) for j in range(4)]))
     weight = 4.0 * GRAVITY
 
     def excess(height: float) -> float:

@@ -130,10 +130,8 @@ def restitution(damping_ratio: float) -> float:
 
 @pytest.mark.parametrize("damping_ratio", [0.0, 0.1, 0.5])
 def test_both_guards_bounce_off_a_wall_with_the_closed_form_restitution(flown, damping_ratio):
-    w = walls_of(FLAT, damping_ratio=damping_ratio)
-    rows = flown(
-        at([0.0, 0.0, 1.0], [0.8, 0.0, 0.0]), 2.0, [wall((1.0, -3.0), (1.0, 3.0), 9.0)], w._replace(friction=0.0)
-    )
+    w = walls_of(FLAT, friction=0.0, damping_ratio=damping_ratio)
+    rows = flown(at([0.0, 0.0, 1.0], [0.8, 0.0, 0.0]), 2.0, [wall((1.0, -3.0), (1.0, 3.0), 9.0)], w)
     both = damping_ratio * np.sqrt(2.0)  # two springs and two dampers, one mass
     assert rows[-1, 3] == pytest.approx(-0.8 * restitution(both), abs=0.002)  # it touches within a step
     assert np.abs(rows[:, [4, 5, 10, 11, 12]]).max() < 1e-9
@@ -142,7 +140,7 @@ def test_both_guards_bounce_off_a_wall_with_the_closed_form_restitution(flown, d
 def test_a_vehicle_pushed_against_a_wall_rests_in_it_as_deep_as_its_springs_give(flown):
     w = walls_of(FLAT)
     rows = flown(at([0.5, 0.0, 1.0]), 20.0, [wall((1.0, -3.0), (1.0, 3.0), 9.0)], w, (5.0, 0.0, 0.0))
-    assert rows[-1, 0] == pytest.approx(1.0 - GUARD + 5.0 / (2.0 * w.stiffness), abs=1e-9)
+    assert rows[-1, 0] == pytest.approx(1.0 - GUARD + 5.0 / (2.0 * w.springs.stiffness), abs=1e-9)
 
 
 def test_a_beam_pressed_flat_on_a_wall_lies_on_both_ends(flown):

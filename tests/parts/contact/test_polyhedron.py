@@ -24,6 +24,7 @@ from tandemlift.parts.contact.walls import near_wall_loads
 from tandemlift.parts.mechanics.bodies import convex_hull
 from tandemlift.parts.mechanics.loads import resultant
 from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.wall_geometry import wall
 
 FRAME = parts_layout_from(PAIR)
@@ -34,7 +35,9 @@ HEAVY = 1e4  # weight of the equation that fractions add up to 1
 
 
 def walls_around(body):
-    return walls_of(PAIR, guard=1e-6, beam=None, bodies=[body])
+    corners = tuple(map(tuple, body.corners.tolist()))
+    payload = PAIR.payload.model_copy(update={"corners": corners})
+    return walls_of(Vehicle(payload, PAIR.quadrotors), guard=1e-6, radius=None)
 
 
 def core_in(w, s):
@@ -90,7 +93,7 @@ def test_at_rest_force_and_moment_are_the_slope_of_the_elastic_energy(body, seed
         there = State(s.position + vec3(shift[:3]), ZERO, Quat(*turn.as_quat(scalar_first=True)), ZERO)
         spots = spots_by_walls(w.beam, near.beam, FRAME, there)
         depth = np.concatenate([0.3 - np.linalg.norm(np.array(some.offset), axis=0) for some in spots])
-        return 0.5 * w.stiffness * float((np.maximum(depth, 0.0) ** 2).sum())
+        return 0.5 * w.springs.stiffness * float((np.maximum(depth, 0.0) ** 2).sum())
 
     wrench = resultant(FRAME, s.attitude, near_wall_loads(w, near, FRAME, s))
     h = 1e-6
@@ -102,7 +105,9 @@ def test_a_plate_on_the_top_of_a_short_wall_under_its_middle_is_held_up_by_its_f
     w = walls_around(BLOCK)
     short = [wall((0.05, 0.1), (0.05, 0.2), -0.099 + float(PAIR.origin[2]))]
     load = pressed(w, short, PAIR, at([0.0, 0.0, 0.0]))
-    assert load.payload.force.z == pytest.approx(2.0 * 0.001 * w.stiffness, rel=1e-6)  # at both ends of the wall
+    assert load.payload.force.z == pytest.approx(
+        2.0 * 0.001 * w.springs.stiffness, rel=1e-6
+    )  # at both ends of the wall
 
 
 def test_machine_code_of_a_body_among_walls_equals_plain_python():

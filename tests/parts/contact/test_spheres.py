@@ -55,7 +55,7 @@ def test_a_bare_rotor_is_pressed_by_the_depth_of_its_sphere_and_its_clearance_sa
     )
     near = nearest_with(w, upright, no_walls_near(w), frame, s)
     load = near_wall_loads(w, near, frame, s).quadrotors
-    assert load.force.x[0] == pytest.approx(-w.stiffness * (0.25 + 0.128 - 0.36))
+    assert load.force.x[0] == pytest.approx(-w.springs.stiffness * (0.25 + 0.128 - 0.36))
     assert load.moment.y[0] == pytest.approx(load.force.x[0] * 0.05)  # at the height of the hub
     assert min(clearance(w, near, frame, s).rotors.rims) == pytest.approx(0.36 - 0.25 - 0.128)
 

@@ -30,8 +30,8 @@ def test_the_first_touch_stays_in_the_record_whichever_part_it_is_of(part):
         normal = PAIR(*[force if k == number else 0.0 for k in (1, 2)])
         return PartContacts(normal, Vec3(*[PAIR(place, place)] * 3))
 
-    first = record_after(UNTOUCHED, touching(part, 2.0, 0.5), 1.0, 0.01)
-    later = record_after(first, touching(3 - part, 9.0, 0.7), 2.0, 0.01)
+    first = record_after(touching(part, 2.0, 0.5), UNTOUCHED, 1.0, 0.01)
+    later = record_after(touching(3 - part, 9.0, 0.7), first, 2.0, 0.01)
     assert (first.part, first.time, first.place) == (part, 1.0, Vec3(0.5, 0.5, 0.5))
     assert later[:3] == first[:3]
     assert (later.force, later.impulse) == (9.0, pytest.approx(0.11))

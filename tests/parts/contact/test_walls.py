@@ -62,7 +62,7 @@ def meet_near(p: Vec3, one: Wall, other: Wall) -> bool:
 def test_the_two_nearest_walls_of_each_quadrotor_are_found_in_any_order(count, seed):
     rng = np.random.default_rng(seed)
     vehicle, s = random_vehicle(rng, count), random_state(rng)
-    w, table = walls_of(vehicle, beam=None), [random_wall(rng, 3.0) for _ in range(6)]
+    w, table = walls_of(vehicle, radius=None), [random_wall(rng, 3.0) for _ in range(6)]
     near = found(w, table, parts_layout_from(vehicle), s)
     R = Rotation.from_quat(array(s.attitude), scalar_first=True).as_matrix()
     for i, place in enumerate(vehicle.lever_arms):
@@ -106,7 +106,7 @@ def test_at_rest_force_and_moment_are_the_slope_of_the_elastic_energy(seed):
     rng = np.random.default_rng(seed)
     one = wall(rng.normal(0.0, 0.5, 2), rng.normal(0.0, 0.5, 2), rng.normal(0.0, 0.1))
     s = random_state(rng)._replace(position=vec3(rng.normal(0.0, 0.1, 3)), velocity=ZERO, rates=ZERO)
-    w = walls_of(PAIR, guard=0.5, beam=(LENGTH, 0.3))
+    w = walls_of(PAIR, guard=0.5, radius=0.3)
     w = w._replace(beam=w.beam._replace(radius=0.3))
     start, along = plane(one)
 
@@ -116,7 +116,7 @@ def test_at_rest_force_and_moment_are_the_slope_of_the_elastic_energy(seed):
         guards = array(there.position) + PAIR.lever_arms @ turn.as_matrix().T
         depths = [0.5 - nearest(p - start, [-along, -DOWN], [(0, 1), BELOW]) for p in guards]
         depths += [0.3 - d for d in features(PAIR, one, there)]
-        return 0.5 * w.stiffness * sum(max(d, 0.0) ** 2 for d in depths)
+        return 0.5 * w.springs.stiffness * sum(max(d, 0.0) ** 2 for d in depths)
 
     frame = parts_layout_from(PAIR)
     wrench = resultant(frame, s.attitude, pressed(w, [one], PAIR, s))
@@ -130,9 +130,9 @@ def test_at_rest_force_and_moment_are_the_slope_of_the_elastic_energy(seed):
 
 def test_a_guard_against_an_edge_is_pushed_straight_away_from_it():
     away = np.array([0.3, 0.2, 0.0])
-    load = pressed(walls_of(SINGLE, beam=None), [wall((0.0, 0.0), (-2.0, -1.0), 2.0)], SINGLE, at([*away[:2], 1.0]))
+    load = pressed(walls_of(SINGLE, radius=None), [wall((0.0, 0.0), (-2.0, -1.0), 2.0)], SINGLE, at([*away[:2], 1.0]))
     depth = GUARD - np.linalg.norm(away)
-    force = walls_of(SINGLE, beam=None).stiffness * depth * away / np.linalg.norm(away)
+    force = walls_of(SINGLE, radius=None).springs.stiffness * depth * away / np.linalg.norm(away)
     assert np.array(load.quadrotors.force)[:, 0] == pytest.approx(force, abs=1e-9)
     assert np.array(load.quadrotors.moment) == pytest.approx(np.zeros((3, 1)), abs=1e-9)
 
@@ -140,15 +140,15 @@ def test_a_guard_against_an_edge_is_pushed_straight_away_from_it():
 @given(seed=seeds)
 def test_above_the_top_nothing_touches_and_next_to_it_the_guard_is_pushed_up(seed):
     rng = np.random.default_rng(seed)
-    s, w = at([rng.uniform(-1.0, 1.0), 0.0, 1.0]), walls_of(SINGLE, beam=None)
+    s, w = at([rng.uniform(-1.0, 1.0), 0.0, 1.0]), walls_of(SINGLE, radius=None)
     passed = pressed(w, [wall((-2.0, 0.0), (2.0, 0.0), 1.0 - GUARD)], SINGLE, s)
     assert all(x == 0.0 for x in flat(passed))
     lifted = pressed(w, [wall((-2.0, 0.0), (2.0, 0.0), 1.001 - GUARD)], SINGLE, s)
-    assert lifted.quadrotors.force.z[0] == pytest.approx(0.001 * w.stiffness, rel=1e-9)
+    assert lifted.quadrotors.force.z[0] == pytest.approx(0.001 * w.springs.stiffness, rel=1e-9)
 
 
 def test_a_wall_split_in_two_presses_like_a_whole_one():
-    w = walls_of(SINGLE, beam=None)
+    w = walls_of(SINGLE, radius=None)
     whole = [wall((-2.0, 0.0), (2.0, 0.0), 2.0)]
     split = [wall((-2.0, 0.0), (0.0, 0.0), 2.0), wall((2.0, 0.0), (0.0, 0.0), 2.0)]
     for x, order in itertools.product(np.linspace(-0.2, 0.2, 21), (1, -1)):
@@ -158,36 +158,36 @@ def test_a_wall_split_in_two_presses_like_a_whole_one():
 
 
 def test_around_an_outer_corner_one_wall_presses_and_within_an_inner_corner_two():
-    w, corner = walls_of(SINGLE, beam=None), [wall((0.0, 0.0), (2.0, 0.0), 2.0), wall((0.0, 2.0), (0.0, 0.0), 2.0)]
+    w, corner = walls_of(SINGLE, radius=None), [wall((0.0, 0.0), (2.0, 0.0), 2.0), wall((0.0, 2.0), (0.0, 0.0), 2.0)]
     inner = np.array(pressed(w, corner, SINGLE, at([0.3, 0.25, 1.0])).quadrotors.force)[:, 0]
-    assert inner == pytest.approx([w.stiffness * 0.075, w.stiffness * 0.125, 0.0])
+    assert inner == pytest.approx([w.springs.stiffness * 0.075, w.springs.stiffness * 0.125, 0.0])
     for angle in np.linspace(0.51 * np.pi, 1.99 * np.pi, 40):
         p = 0.36 * np.array([np.cos(angle), np.sin(angle)])
         distance = np.hypot(*np.where(p > 0.0, [0.0, 0.0], p)) if (p > 0.0).any() else 0.36
         force = np.array(pressed(w, corner, SINGLE, at([*p, 1.0])).quadrotors.force)[:, 0]
-        assert np.linalg.norm(force) == pytest.approx(w.stiffness * max(GUARD - distance, 0.0), rel=1e-9)
+        assert np.linalg.norm(force) == pytest.approx(w.springs.stiffness * max(GUARD - distance, 0.0), rel=1e-9)
 
 
 def test_friction_on_a_guard_that_slides_is_that_of_coulomb_and_turns_it():
-    w = walls_of(SINGLE, beam=None)
+    w = walls_of(SINGLE, radius=None)
     s = at([1.0 - GUARD + 0.01, 0.0, 1.0], [0.0, 2.0, 0.0])
     load = pressed(w, [wall((1.0, -3.0), (1.0, 3.0), 2.0)], SINGLE, s).quadrotors
-    N = 0.01 * w.stiffness
+    N = 0.01 * w.springs.stiffness
     assert np.array(load.force)[:, 0] == pytest.approx([-N, -0.4 * N, 0.0], rel=1e-9)
     assert np.array(load.moment)[:, 0] == pytest.approx([0.0, 0.0, -0.4 * N * (GUARD - 0.01)], rel=1e-9)
 
 
 def test_a_guard_that_rolls_along_a_wall_feels_no_friction():
-    w, arm = walls_of(SINGLE, beam=None), GUARD - 0.01
+    w, arm = walls_of(SINGLE, radius=None), GUARD - 0.01
     s = at([1.0 - arm, 0.0, 1.0], [0.0, 2.0, 0.0], rates=Vec3(0.0, 0.0, -2.0 / arm))
     load = pressed(w, [wall((1.0, -3.0), (1.0, 3.0), 2.0)], SINGLE, s).quadrotors
-    assert np.array(load.force)[:, 0] == pytest.approx([-0.01 * w.stiffness, 0.0, 0.0], abs=1e-9)
+    assert np.array(load.force)[:, 0] == pytest.approx([-0.01 * w.springs.stiffness, 0.0, 0.0], abs=1e-9)
 
 
 def test_a_beam_against_a_door_post_is_pushed_off_at_right_angles_where_the_post_is():
     w, post, lower = walls_of(PAIR), (0.04, 0.3), -PAIR.center_of_mass[2]
     load = pressed(w, [wall(post, (3.0, 0.3), 2.0)], PAIR, at([0.0, 0.0, 1.0])).payload
-    N = w.stiffness * (RADIUS - 0.04)
+    N = w.springs.stiffness * (RADIUS - 0.04)
     assert array(load.force) == pytest.approx([-N, 0.0, 0.0], rel=1e-9)
     assert array(load.moment) == pytest.approx([0.0, 0.0, 0.3 * N], rel=1e-9)
     passed = pressed(w, [wall(post, (3.0, 0.3), 1.0 + lower - RADIUS)], PAIR, at([0.0, 0.0, 1.0])).payload
@@ -197,7 +197,7 @@ def test_a_beam_against_a_door_post_is_pushed_off_at_right_angles_where_the_post
 def test_a_beam_lowered_across_a_wall_is_held_up_by_its_top():
     w, lower = walls_of(PAIR), -PAIR.center_of_mass[2]
     load = pressed(w, [wall((-3.0, 0.2), (3.0, 0.2), 1.0 + lower - 0.03)], PAIR, at([0.0, 0.0, 1.0])).payload
-    N = w.stiffness * (RADIUS - 0.03)
+    N = w.springs.stiffness * (RADIUS - 0.03)
     assert array(load.force) == pytest.approx([0.0, 0.0, N], rel=1e-9)
     assert array(load.moment) == pytest.approx([0.2 * N, 0.0, 0.0], rel=1e-9)
 

@@ -20,7 +20,7 @@ from tandemlift.parts.controllers.geometric import (
 )
 from tandemlift.parts.controllers.lqr import tilt_axes
 from tandemlift.parts.controllers.pid import PIDGains, PIDStageState, back_calculated, pid_step
-from tandemlift.parts.controllers.smc import layer_reaching_time, linear_surface, switched_acceleration
+from tandemlift.parts.controllers.smc import linear_surface, switched_acceleration
 from tandemlift.parts.controllers.super_twisting import super_twisting_step, twisting_gains
 from tandemlift.parts.mechanics.low_pass import LowPassState, low_pass
 from tandemlift.parts.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion
@@ -183,7 +183,7 @@ def test_the_layer_of_the_linear_surface_is_reached_after_the_time_of_the_closed
 
     off.terminal = True
     solved = solve_ivp(motion, (0.0, 100.0), [0.0, S0], events=off, rtol=1e-9, atol=1e-12)
-    assert solved.t[-1] == pytest.approx(float(layer_reaching_time(gain, width, S0, pull)), rel=1e-6)
+    assert solved.t[-1] == pytest.approx((abs(S0) - width) / (gain - abs(pull)), rel=1e-6)
 
 
 def twisted(step, width, ramp, duration, L=4.0, slope=2.0):

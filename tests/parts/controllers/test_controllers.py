@@ -15,7 +15,7 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.types import flat
 from tandemlift.parts.controllers import CONTROLLERS, controller, load_controller
 from tandemlift.parts.controllers import control as control_law
-from tandemlift.parts.controllers.trial_run import check_started
+from tandemlift.parts.controllers.registry import check_started
 
 REGISTERED = sorted(CONTROLLERS)
 

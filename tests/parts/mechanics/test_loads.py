@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 import tandemlift as tl
 from tandemlift.core.vector import Quat, Vec3, each, vec3
 from tandemlift.engines.models.links import parts_layout_from
-from tandemlift.parts.mechanics.loads import PartLoad, PerfectReadings, _loaded, quadrotor_wrenches
+from tandemlift.parts.mechanics.loads import PartLoad, PerfectReadings, quadrotor_wrenches, readings_with_load
 from tandemlift.parts.mechanics.rotation import world_z_in_body
 from tandemlift.parts.mechanics.turbulence import TurbulenceState, dryden, turbulence_velocity
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -45,7 +45,7 @@ def test_a_force_on_a_quadrotor_loads_its_joint_by_the_force_and_its_moment_abou
     frame, none = LAYOUT, sets(np.zeros((2, 3)))
     load = PartLoad(sets(force), sets(np.cross(at, in_body)))
     q = Quat(*attitude.as_quat(scalar_first=True).tolist())
-    found = _loaded(load, frame, q, PerfectReadings(vec3([0.0] * 3), none, none, vec3([0.0] * 3)))
+    found = readings_with_load(load, frame, q, PerfectReadings(vec3([0.0] * 3), none, none, vec3([0.0] * 3)))
     joints = np.transpose(frame.joints)
     assert np.transpose(found.joint_force) == pytest.approx(in_body)
     assert np.transpose(found.joint_torque) == pytest.approx(np.cross(at - joints, in_body))

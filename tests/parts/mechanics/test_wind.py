@@ -30,12 +30,13 @@ from tandemlift.parts.mechanics.turbulence import (
     turbulence_step,
     turbulence_velocity,
 )
-from tandemlift.parts.mechanics.wind import Gust, Wind, gust_velocity, wind_step
+from tandemlift.parts.mechanics.wind import AirDrag, Gust, WindModel, gust_velocity, wind_step
 from tandemlift.simulation.loop.random_numbers import key_from_seed, normals
 
 FOOT = 0.3048
 NO_EDDIES, NO_WHIFFS = TurbulenceState(*[0.0] * 5), WindNoise(*[0.0] * 5)
-STEADY = Wind(Vec3(4.0, -2.0, 0.5), Absent())
+NO_DRAG = AirDrag(ZERO, ZERO)
+STEADY = WindModel(Vec3(4.0, -2.0, 0.5), Absent(), NO_DRAG)
 X = (1.0, 0.0, 0.0)
 
 
@@ -166,7 +167,7 @@ def test_without_a_horizontal_mean_wind_the_eddies_pass_along_x():
 class Blowing(NamedTuple):
     """A wind, and the key of its turbulence."""
 
-    wind: Wind
+    wind: WindModel
     key0: Any
     key1: Any
 
@@ -184,7 +185,7 @@ def blown(fixed: Blowing, eddies: TurbulenceState, given: Step) -> Any:
 def flown() -> tuple[np.ndarray, float, float]:
     """A day of compiled turbulence (3 × samples), its step [s] and airspeed [m/s]."""
     step, V, count = 0.05, 10.0, 2**21
-    wind = Wind(ZERO, dryden(8.0, 6.0, V, X, step))
+    wind = WindModel(ZERO, dryden(8.0, 6.0, V, X, step), NO_DRAG)
     fixed, (x, y) = Blowing(wind, *key_from_seed(1)), (normals(0, draw, *key_from_seed(1)) for draw in (2, 3))
     loop = Loop(blown, fixed, NO_EDDIES, Step(0.0))
     return loop(fixed, TurbulenceState(*x, y.first), np.arange(count)[:, None]).T, step, V
@@ -213,7 +214,7 @@ def test_wind_without_turbulence_is_steady():
 
 
 def test_noise_moves_the_turbulence_of_the_next_step_and_not_that_of_now():
-    wind = Wind(Vec3(4.0, 0.0, 0.0), dryden(8.0, 6.0, 4.0, X, 1e-3))
+    wind = WindModel(Vec3(4.0, 0.0, 0.0), dryden(8.0, 6.0, 4.0, X, 1e-3), NO_DRAG)
     whiffs = WindNoise(1.0, -1.0, 1.0, -1.0, 1.0)
     air, eddies = wind_step(wind, NO_EDDIES, ZERO, whiffs)
     assert air == Vec3(4.0, 0.0, 0.0)

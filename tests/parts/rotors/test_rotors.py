@@ -12,10 +12,9 @@ from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, each
 from tandemlift.missions import load_mission
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.rotors.allocation import wrench_scale
-from tandemlift.parts.rotors.ground_effect import ground_effect_ratio
+from tandemlift.parts.rotors.ground_effect import ground_effect_from, ground_effect_ratio
 from tandemlift.parts.rotors.rotor_faults import RotorFaults
-from tandemlift.parts.rotors.rotors import RotorState, ground_effect_from, rotors_from, rotors_step
+from tandemlift.parts.rotors.rotors import RotorState, rotors_from, rotors_step
 
 VEHICLE = Vehicle.from_settings(load_mission("paper").vehicle)
 UP, DOWN, CONSTANT, MOST = 0.0125, 0.025, 5.84e-6, 5.84e-6 * 1100.0**2
@@ -24,10 +23,8 @@ EIGHT = each(8)
 
 
 def rotors(step=0.001, *, late=False, faults=None, surface=None):
-    scale = wrench_scale(VEHICLE.effect)
-    return rotors_from(
-        VEHICLE, step, delayed=late, faults=faults or Absent(), surface=surface or Absent(), wrench_scale=scale
-    )
+    plain = rotors_from(VEHICLE, step, late, (), None, 1.0)
+    return plain._replace(faults=faults or Absent(), surface=surface or Absent())
 
 
 def spun(command, speed, steps, step=0.001):

@@ -27,7 +27,7 @@ from tandemlift.core.files import DATA
 from tandemlift.core.types import Array, Progress
 from tandemlift.flight.corridor_score import score_of
 from tandemlift.flight.record import Flight
-from tandemlift.parts.controllers.trial_run import error_text
+from tandemlift.parts.controllers.registry import error_text
 
 AT_ONCE = 4  # flights in memory
 FORCES = [round(3.0 / 1.2**i, 3) for i in range(16)]  # N: steps of a push, from 3 to 0.2 N

@@ -176,7 +176,7 @@ def add_walls(spec: Any, walls: Walls, upright: Sequence[WallTable], shapes: Veh
         }
         _add_shape(spec.worldbody, f"wall{k}", KINDS.mjGEOM_BOX, **box)
         for part in shapes.on_walls:
-            _add_contact_pair(spec, f"wall{k}", part, walls.friction)
+            _add_contact_pair(spec, f"wall{k}", part, walls.springs.friction)
 
 
 def set_contact_stiffness(model: Any, floor: Any, walls: Any) -> None:
@@ -184,7 +184,7 @@ def set_contact_stiffness(model: Any, floor: Any, walls: Any) -> None:
     feet, ground = (mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, name) for name in ("floor", GROUND))
     for p in range(model.npair):
         shapes = int(model.pair_geom1[p]), int(model.pair_geom2[p])
-        side = floor if feet in shapes else floor.hull if ground in shapes else walls
+        side = floor if feet in shapes else floor.hull if ground in shapes else walls.springs
         part = max(shapes, key=lambda shape: model.geom_bodyid[shape])  # the other is fixed to the world
         R_d = (1.0 - SOFT) * model.body_invweight0[model.geom_bodyid[part], 0]
         model.pair_solref[p] = -np.array([side.stiffness, side.damping]) * R_d

@@ -81,7 +81,7 @@ class VehicleCollisions:
         self._parts = hull
         self._foot = CollisionSurface(FLOOR_BIT, floor.friction, floor.stiffness, floor.damping)
         self._hull = CollisionSurface(FLOOR_BIT, floor.friction, hull.stiffness, hull.damping)
-        self._wall = CollisionSurface(WALL_BIT, walls.friction, walls.stiffness, walls.damping)
+        self._wall = CollisionSurface(WALL_BIT, walls.springs.friction, walls.springs.stiffness, walls.springs.damping)
 
     def add_to_payload(self, element: Element, link: Link) -> None:
         """Add the shapes of the payload; none if it has no shape."""

@@ -5,13 +5,14 @@ What the laws of a beam are for another payload is registered in `polyhedron`.
 
 from __future__ import annotations
 
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 from tandemlift.core.algebra import clip, maximum, where
 from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number, PerQuadrotor
 from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, dot
-from tandemlift.parts.contact.spheres import SMALL, SpringyWall, WallContact, sphere_contact
+from tandemlift.parts.contact.spheres import SMALL, WallContact, about_arm, sphere_contact
+from tandemlift.parts.contact.springs import Springs
 from tandemlift.parts.mechanics.loads import PartLoad, PartsLayout, scaled, sum_over_set, translated
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
@@ -33,14 +34,6 @@ class Beam(NamedTuple):
 
     radius: Number
     ends: PerQuadrotor
-
-
-class WallToBeam(SpringyWall, Protocol):
-    """Contact of walls with a vehicle whose payload has a shape."""
-
-    @property
-    def beam(self) -> Beam:
-        """Its shape."""
 
 
 class BeamAxis(NamedTuple):
@@ -146,31 +139,31 @@ def beam_point(a: BeamAxis, along: Number) -> Vec3:
 
 
 @law
-def contact_at_beam_point(w: WallToBeam, a: BeamAxis, along: Number, o: Vec3) -> WallContact:
-    """Contact of the beam with a wall at a point `along` its axis [m], at the offset o [m]."""
+def contact_at_beam_point(k: Springs, radius: Number, a: BeamAxis, along: Number, o: Vec3) -> WallContact:
+    """Contact of a beam with a wall at a point `along` its axis [m], at the offset o [m]."""
     arm = scaled(a.direction, along)
     velocity = translated(a.velocity, cross(a.spin, arm))
-    found = sphere_contact(w, translated(a.center, arm), o, w.beam.radius, velocity, a.spin)
-    return found._replace(load=PartLoad(found.load.force, found.load.moment + cross(arm, found.load.force)))
+    c = sphere_contact(k, translated(a.center, arm), o, radius, velocity, a.spin)
+    return about_arm(c, arm)
 
 
 @choice(absent="beam")
 def beam_contact(
-    beam: Beam | Absent, w: WallToBeam, near: NearBeam | Absent, frame: PartsLayout, s: State
+    beam: Beam | Absent, k: Springs, near: NearBeam | Absent, frame: PartsLayout, s: State
 ) -> BeamContact | Absent:
     """Contact of the beam with the near walls."""
 
 
 @beam_contact.register(Beam)
-def _capsule(beam: Beam, w: WallToBeam, near: NearBeam, frame: PartsLayout, s: State) -> BeamContact:
-    a, half = beam_axis(frame.payload, s), beam.ends[1]
-    i, j = point_by_edge(a, half, near.edge), point_by_edge(a, half, near.other_edge)
-    k = point_by_top(a, half, near.topped)
+def _capsule(beam: Beam, k: Springs, near: NearBeam, frame: PartsLayout, s: State) -> BeamContact:
+    a, half, r = beam_axis(frame.payload, s), beam.ends[1], beam.radius
+    edge, other = point_by_edge(a, half, near.edge), point_by_edge(a, half, near.other_edge)
+    top = point_by_top(a, half, near.topped)
     return BeamContact(
-        contact_at_beam_point(w, a, beam.ends, offset(near.ends, beam_point(a, beam.ends))),
-        contact_at_beam_point(w, a, i, offset(near.edge, beam_point(a, i))),
-        contact_at_beam_point(w, a, j, offset(near.other_edge, beam_point(a, j))),
-        contact_at_beam_point(w, a, k, offset_from_top(near.topped, beam_point(a, k))),
+        contact_at_beam_point(k, r, a, beam.ends, offset(near.ends, beam_point(a, beam.ends))),
+        contact_at_beam_point(k, r, a, edge, offset(near.edge, beam_point(a, edge))),
+        contact_at_beam_point(k, r, a, other, offset(near.other_edge, beam_point(a, other))),
+        contact_at_beam_point(k, r, a, top, offset_from_top(near.topped, beam_point(a, top))),
     )
 
 

@@ -11,8 +11,8 @@ from typing import NamedTuple, TypeVar
 
 from tandemlift.core.algebra import least, minimum, sqrt
 from tandemlift.core.law import choice, elementwise, law
-from tandemlift.core.types import Condition, Number, PerQuadrotor, PerRotor
-from tandemlift.core.vector import Absent, Vec3, apply, dot
+from tandemlift.core.types import Condition, Number, NumberSet, PerQuadrotor, PerRotor
+from tandemlift.core.vector import Absent, Vec3, apply, dot, is_set
 from tandemlift.parts.contact.beam_axis import beam_axis, beam_point, point_by_edge, point_by_top
 from tandemlift.parts.contact.polyhedron import NearPolyhedron, Polyhedron, spots_by_walls
 from tandemlift.parts.contact.spheres import NearRotors, RotorSpheres
@@ -20,7 +20,7 @@ from tandemlift.parts.contact.walls import Beam, NearBeam, NearWalls, Walls
 from tandemlift.parts.mechanics.loads import PartsLayout, translated
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.mechanics.wall_geometry import offset, offset_from_top
+from tandemlift.parts.mechanics.wall_geometry import Wall, offset, offset_from_top
 
 FAR = 1000.0  # m
 STALE = 0.05  # m, by which the vehicle may move before the nearest walls are found anew
@@ -62,26 +62,29 @@ def sphere_distance(o: Vec3, radius: Number) -> Number:
     return surface_distance(dot(o, o), radius)
 
 
+@law
+def nearest_distance(p: Vec3, first: Wall, second: Wall, radius: NumberSet) -> NumberSet:
+    """The smaller distance of spheres about p from two walls [m]."""
+    nearest: NumberSet = minimum(sphere_distance(offset(first, p), radius), sphere_distance(offset(second, p), radius))
+    return nearest
+
+
 @law(absent="rotors")
 def rotor_clearance(rotors: RotorSpheres, near: NearRotors, s: State) -> RotorClearance:
     """Clearance of the rotors from the walls near them."""
     p = translated(s.position, apply(rotation_from_quaternion(s.attitude), rotors.hub))
-    first, second = (
-        sphere_distance(offset(near.first, p), rotors.radius),
-        sphere_distance(offset(near.second, p), rotors.radius),
-    )
-    return RotorClearance(minimum(first, second))
+    return RotorClearance(nearest_distance(p, near.first, near.second, rotors.radius))
 
 
 @choice(absent="beam")
 def beam_clearance(
-    beam: Beam | Polyhedron | Absent, w: Walls, near: NearBeam | NearPolyhedron | Absent, frame: PartsLayout, s: State
+    beam: Beam | Polyhedron | Absent, near: NearBeam | NearPolyhedron | Absent, frame: PartsLayout, s: State
 ) -> BeamClearance | Absent:
     """Clearance of the payload from the walls near it."""
 
 
 @beam_clearance.register(Beam)
-def _capsule(beam: Beam, w: Walls, near: NearBeam, frame: PartsLayout, s: State) -> BeamClearance:
+def _capsule(beam: Beam, near: NearBeam, frame: PartsLayout, s: State) -> BeamClearance:
     a, half = beam_axis(frame.payload, s), beam.ends[1]
     edge = offset(near.edge, beam_point(a, point_by_edge(a, half, near.edge)))
     other = offset(near.other_edge, beam_point(a, point_by_edge(a, half, near.other_edge)))
@@ -94,7 +97,7 @@ def _capsule(beam: Beam, w: Walls, near: NearBeam, frame: PartsLayout, s: State)
 
 
 @beam_clearance.register(Polyhedron)
-def _polyhedron(p: Polyhedron, w: Walls, near: NearPolyhedron, frame: PartsLayout, s: State) -> BeamClearance:
+def _polyhedron(p: Polyhedron, near: NearPolyhedron, frame: PartsLayout, s: State) -> BeamClearance:
     first, second, *others = [sphere_distance(spots.offset, p.radius) for spots in spots_by_walls(p, near, frame, s)]
     return BeamClearance(minimum(first, second), least([least(distances) for distances in others]))
 
@@ -103,11 +106,9 @@ def _polyhedron(p: Polyhedron, w: Walls, near: NearPolyhedron, frame: PartsLayou
 def clearance(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> Clearance:
     """Clearance of the vehicle from the walls near it."""
     p = translated(s.position, apply(rotation_from_quaternion(s.attitude), frame.quadrotors))
-    guards = minimum(
-        sphere_distance(offset(near.first, p), w.guards), sphere_distance(offset(near.second, p), w.guards)
-    )
+    guards = nearest_distance(p, near.first, near.second, w.guards)
     rotors = rotor_clearance(w.rotors, near.rotors, s)
-    return Clearance(guards, rotors, beam_clearance(w.beam, w, near.beam, frame, s))
+    return Clearance(guards, rotors, beam_clearance(w.beam, near.beam, frame, s))
 
 
 @choice(absent=FAR)
@@ -153,26 +154,13 @@ def may_touch_wall(w: Walls, c: Clearance, s: State, rate: State, dt: Number) ->
     return least_clearance(c) < 2.0 * dt * (fast + faster * dt)
 
 
-C = TypeVar("C", RotorClearance, BeamClearance, Clearance, Absent)
+C = TypeVar("C")
 
 
-@choice(absent="a")
+@law
 def smaller_clearance(a: C, b: C) -> C:
-    """The smaller of two clearances, part by part."""
-
-
-@smaller_clearance.register(RotorClearance)
-def _smaller_of_rotors(a: RotorClearance, b: RotorClearance) -> RotorClearance:
-    return RotorClearance(minimum(a.rims, b.rims))
-
-
-@smaller_clearance.register(BeamClearance)
-def _smaller_of_beams(a: BeamClearance, b: BeamClearance) -> BeamClearance:
-    return BeamClearance(minimum(a.ends, b.ends), minimum(a.length, b.length))
-
-
-@smaller_clearance.register(Clearance)
-def _smaller_of_vehicles(a: Clearance, b: Clearance) -> Clearance:
-    return Clearance(
-        minimum(a.guards, b.guards), smaller_clearance(a.rotors, b.rotors), smaller_clearance(a.beam, b.beam)
-    )
+    """The smaller of two clearances, distance by distance."""
+    if isinstance(a, tuple) and isinstance(b, tuple) and not is_set(a):
+        return type(a)(*[smaller_clearance(x, y) for x, y in zip(a, b, strict=True)])
+    smaller: C = minimum(a, b)
+    return smaller

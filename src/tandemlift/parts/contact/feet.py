@@ -17,7 +17,6 @@ by their own law (`hull`).
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from tandemlift.core.algebra import absolute, greatest, maximum, minimum, sqrt, where
 from tandemlift.core.arrays import array, largest, lengths
@@ -29,12 +28,15 @@ from tandemlift.parts.contact.springs import friction_factor, mobility, softened
 from tandemlift.parts.mechanics.loads import PartLoad, PartsLayout, add_to_each
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion, world_z_in_body
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 NO_HULL = Absent()
+RADIUS = 0.01  # m, of the ball joint above the sole
+DAMPING_RATIO = 1.0  # of the heave oscillation on all feet
 
 
 class Floor(NamedTuple):
-    """A level floor, and the parts of the vehicle that touch it: feet, and its `hull`, a `pads.Hull` or `Absent`.
+    """A level floor, and the parts of the vehicle that touch it: feet, and its `hull`, a `Hull` or `Absent`.
 
     `height` z of the floor [m]; of one foot `stiffness` k [N/m] and `damping` c [N·s/m], `tangential_stiffness` k_t and
     `tangential_damping` c_t; `friction` μ; `radius` ρ [m]; `feet`: centre of foot j of every quadrotor from the
@@ -102,13 +104,8 @@ def foot_at(floor: Floor, s: State, R: Mat3, spin: Vec3, f: Vec3) -> Foot:
 @law
 def feet_at(floor: Floor, s: State, R: Mat3) -> Quarters[Foot]:
     """The four feet of every quadrotor; R of the state's attitude."""
-    spin, feet = apply(R, s.rates), floor.feet
-    return Quarters(
-        foot_at(floor, s, R, spin, feet.first),
-        foot_at(floor, s, R, spin, feet.second),
-        foot_at(floor, s, R, spin, feet.third),
-        foot_at(floor, s, R, spin, feet.fourth),
-    )
+    spin = apply(R, s.rates)
+    return Quarters(*[foot_at(floor, s, R, spin, place) for place in floor.feet])
 
 
 @law
@@ -133,12 +130,7 @@ def feet_load(floor: Floor, grip: Quarters[FootGrip], frame: PartsLayout, s: Sta
     """Load of the floor on every quadrotor, as sets: force, and moment about each quadrotor's centre of mass."""
     R = rotation_from_quaternion(s.attitude)
     a, b, c, d = feet_at(floor, s, R)
-    f, g, h, i = (
-        foot_force(floor, a, grip[0]),
-        foot_force(floor, b, grip[1]),
-        foot_force(floor, c, grip[2]),
-        foot_force(floor, d, grip[3]),
-    )
+    f, g, h, i = [foot_force(floor, foot, held) for foot, held in zip((a, b, c, d), grip, strict=True)]
     force = f + g + h + i
     moment = cross(a.arm, f) + cross(b.arm, g) + cross(c.arm, h) + cross(d.arm, i)
     return PartLoad(force, apply_transposed(R, moment - cross(apply(R, frame.quadrotors), force)))
@@ -147,13 +139,8 @@ def feet_load(floor: Floor, grip: Quarters[FootGrip], frame: PartsLayout, s: Sta
 @law
 def grips_after_step(floor: Floor, grip: Quarters[FootGrip], s: State) -> Quarters[FootGrip]:
     """The memory after a step that ends in state `s`: feet in the air and sliding feet get new anchors."""
-    a, b, c, d = feet_at(floor, s, rotation_from_quaternion(s.attitude))
-    return Quarters(
-        slide_grip(floor, a, grip[0]),
-        slide_grip(floor, b, grip[1]),
-        slide_grip(floor, c, grip[2]),
-        slide_grip(floor, d, grip[3]),
-    )
+    feet = feet_at(floor, s, rotation_from_quaternion(s.attitude))
+    return Quarters(*[slide_grip(floor, foot, held) for foot, held in zip(feet, grip, strict=True)])
 
 
 @law
@@ -166,44 +153,30 @@ def may_touch(floor: Floor, s: State, time: Number) -> Condition:
 
 
 def floor(
-    soles: ArrayLike,
-    mass: float,
-    inertia: ArrayLike,
-    step: float,
-    *,
-    friction: float,
-    height: float = 0.0,
-    radius: float = 0.01,
-    sinkage: float = 5e-4,
-    damping_ratio: float = 1.0,
-    hull: Hull | Absent = NO_HULL,
+    vehicle: Vehicle, mass: float, step: float, *, friction: float, sinkage: float = 5e-4, hull: Hull | Absent = NO_HULL
 ) -> Floor:
-    """A floor for a vehicle, whose feet are so stiff that it sinks by `sinkage` at rest; softer for a long step.
+    """A floor at z = 0 for a vehicle, so stiff that it sinks by `sinkage` at rest; softer for a long step.
 
     Args:
-        soles: N × 4 × 3, of the level vehicle, from its centre of mass [m, body axes].
-        mass: of the vehicle [kg].
-        inertia: 3 × 3 about its centre of mass [kg·m²].
+        vehicle: whose feet stand on it.
+        mass: of the real vehicle [kg].
         step: of the Runge-Kutta method [s].
         friction: μ of the pads on the floor.
-        height: of the floor, z [m].
-        radius: ρ, of the ball joint above the sole [m].
         sinkage: of the vehicle at rest on all its feet [m]; `sinkage_of` gives the actual one after softening.
-        damping_ratio: of the heave oscillation on all its feet.
         hull: a `Hull` that meets the floor, too, or `Absent`.
     """
-    places = np.add(soles, [0.0, 0.0, radius])
+    places = np.add(vehicle.soles, [0.0, 0.0, RADIUS])
     points = places.reshape(-1, 3)
     share = mass / len(points)
     wanted = share * GRAVITY / sinkage
-    body_mobility = mobility(points, mass, array(inertia))
-    k, c = softened_for_step(wanted, 2.0 * damping_ratio * sqrt(wanted * share), body_mobility, step)
-    reach = number(greatest(lengths(points))) + radius
+    body_mobility = mobility(points, mass, array(vehicle.inertia))
+    k, c = softened_for_step(wanted, 2.0 * DAMPING_RATIO * sqrt(wanted * share), body_mobility, step)
+    reach = number(greatest(lengths(points))) + RADIUS
     feet = Quarters(*[spread(places[:, j]) for j in range(4)])
     extent = vec3(largest(np.abs(points), axis=0))
     if isinstance(hull, Hull):
         extent, reach = maximum(extent, absolute(hull.middle) + hull.half), maximum(reach, hull.reach)
-    return Floor(number(height), k, c, number(friction), k, c, float(radius), feet, extent, reach, hull)
+    return Floor(0.0, k, c, number(friction), k, c, RADIUS, feet, extent, reach, hull)
 
 
 def standing_height(floor: Floor, weight: float) -> float:

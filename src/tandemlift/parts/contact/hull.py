@@ -16,27 +16,39 @@ with v the sliding velocity. Thus k δ is a spring, the rest dissipates, and con
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from tandemlift.core.algebra import absolute, greatest, least, minimum, sqrt
-from tandemlift.core.arrays import array
+from tandemlift.core.arrays import array, largest, lengths
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import Array, Condition, Number, NumberSet, number
-from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, dot, each, quarters, spread
+from tandemlift.core.vector import (
+    ZERO,
+    Absent,
+    Mat3,
+    Vec3,
+    apply,
+    apply_transposed,
+    cross,
+    dot,
+    quarters,
+    set_of,
+    spread,
+    vec3,
+)
 from tandemlift.parts.contact.springs import friction_factor, mobility, softened_for_step, spring_damper
-from tandemlift.parts.mechanics.bodies import ConvexHull
 from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PartsLayout, add_to_each, sum_over_set
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import world_z_in_body
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 MAX_ACCELERATION = 500.0  # m/s², more than rotors, pushes and walls give
 MAX_ANGULAR_ACCELERATION = 1000.0  # rad/s², more than rotors give
 HALF_THICKNESS = 0.01  # m, of a rotor's disc and of a guard
 CORNER = 1e-3  # m, radius of the corners of a convex body
+STIFFNESS, DAMPING_RATIO = 20000.0, 0.2  # N/m of a contact; of the vehicle on it, without rotation
 
 
 class Ellipsoids(NamedTuple):
@@ -182,93 +194,46 @@ def lowest_of_hull(hull: Hull, R: Mat3) -> Number:
     return least(found)
 
 
-def hull(
-    quadrotors: ArrayLike,
-    rotors: ArrayLike,
-    radii: ArrayLike,
-    guards: ArrayLike,
-    mass: float,
-    inertia: ArrayLike,
-    step: float,
-    *,
-    beam: tuple[float, float] | None = None,
-    bodies: Sequence[ConvexHull] = (),
-    payload: ArrayLike = (0.0, 0.0, 0.0),
-    stiffness: float = 20000.0,
-    damping_ratio: float = 0.2,
-) -> Hull:
-    """The shapes of a vehicle that touch the floor, with the given stiffness, or less for a long step.
+def hull(vehicle: Vehicle, mass: float, step: float) -> Hull:
+    """The shapes of a vehicle that touch the floor, on springs of `STIFFNESS`, or softer for a long step.
 
     Args:
-        quadrotors: N × 3, their centres of mass from the system's [m, body axes].
-        rotors: N × 4 × 3, their hubs from the centre of their quadrotor [m, body axes].
-        radii: of the rotors' discs, N [m].
-        guards: radius of the guard about each quadrotor, N [m].
-        mass: of the vehicle [kg].
-        inertia: 3 × 3 about its centre of mass [kg·m²].
+        vehicle: whose rotors, guards and payload touch the floor.
+        mass: of the real vehicle [kg].
         step: of the Runge-Kutta method [s].
-        beam: length [m] of the axis and radius [m] of a capsule along body y, if the payload is one.
-        bodies: the convex hulls of the payload from its origin, if it has any.
-        payload: its origin from the system's centre of mass [m, body axes].
-        stiffness: of a contact [N/m].
-        damping_ratio: of the vehicle oscillating on one contact, without rotation.
     """
-    centers = array(quadrotors)
-    hubs = (centers[:, None] + array(rotors)).reshape(-1, 3)
-    ends, radius = np.zeros((0, 3)), beam[1] if beam else CORNER
-    if beam is not None:
-        ends = array([np.add(payload, [0.0, 0.5 * side * beam[0], 0.0]) for side in (-1.0, 1.0)])
-    elif bodies:
-        ends = array(np.add(payload, np.concatenate([body.inset(CORNER) for body in bodies])))
-    points = np.concatenate([hubs, centers, ends])
-    body_mobility = mobility(points, mass, array(inertia))
-    k, c = softened_for_step(stiffness, 2.0 * damping_ratio * sqrt(stiffness * mass), body_mobility, step)
-    shapes = [_discs(hubs, np.repeat(radii, 4)), _discs(centers, guards)]
-    if len(ends):
-        shapes.append(_ellipsoids(ends, [radius] * len(ends), [radius] * len(ends)))
-    box = _box_of(shapes)
+    fleet, rotors = vehicle.quadrotors, vehicle.rotor_count
+    ends, radius = _payload_ends(vehicle)
+    points = np.concatenate([vehicle.hubs, vehicle.lever_arms, ends])
+    radii = array([*[q.rotor_radius for q in fleet for _ in range(4)], *[q.guard_radius for q in fleet]])
+    radii = np.concatenate([radii, [radius] * len(ends)])
+    half_thickness = array([HALF_THICKNESS] * (rotors + len(fleet)) + [radius] * len(ends))
+    body_mobility = mobility(points, mass, array(vehicle.inertia))
+    k, c = softened_for_step(STIFFNESS, 2.0 * DAMPING_RATIO * sqrt(STIFFNESS * mass), body_mobility, step)
+    sizes = np.column_stack([radii, radii, half_thickness])
+    low, high = -largest(sizes - points, axis=0), largest(sizes + points, axis=0)
+
+    def shapes(part: slice) -> Ellipsoids:
+        columns = ([number(x) for x in values[part]] for values in (radii, half_thickness))
+        return Ellipsoids(spread(points[part]), *map(set_of, columns))
+
     return Hull(
         stiffness=k,
         damping=c,
         tangential_damping=minimum(c, 1.0 / (body_mobility * step)),
-        rotors=shapes[0],
-        guards=shapes[1],
-        beam=shapes[2] if len(ends) else Absent(),
-        middle=box.middle,
-        half=box.half,
-        reach=_reach_of(shapes),
+        rotors=shapes(slice(rotors)),
+        guards=shapes(slice(rotors, rotors + len(fleet))),
+        beam=shapes(slice(rotors + len(fleet), None)) if len(ends) else Absent(),
+        middle=vec3((low + high) * 0.5),
+        half=vec3((high - low) * 0.5),
+        reach=greatest([number(far) for far in lengths(points) + radii]),
     )
 
 
-def _ellipsoids(centers: Array, radii: Iterable[float], half_thickness: Iterable[float]) -> Ellipsoids:
-    cls = each(len(centers))
-    return Ellipsoids(spread(centers), cls(*map(number, radii)), cls(*map(number, half_thickness)))
-
-
-def _discs(centers: Array, radii: ArrayLike) -> Ellipsoids:
-    return _ellipsoids(centers, array(radii), [HALF_THICKNESS] * len(centers))
-
-
-class Box(NamedTuple):
-    """A box with sides along the body axes: its middle and half of each side [m]."""
-
-    middle: Vec3
-    half: Vec3
-
-
-def _box_of(shapes: list[Ellipsoids]) -> Box:
-    """The box of shapes."""
-    lows, highs = list[Number](), list[Number]()
-    for axis in range(3):
-        places = [center for p in shapes for center in p.center[axis]]
-        sizes = [size for p in shapes for size in (p.half_thickness if axis == 2 else p.radius)]
-        lows.append(least([place - size for place, size in zip(places, sizes, strict=True)]))
-        highs.append(greatest([place + size for place, size in zip(places, sizes, strict=True)]))
-    low, high = Vec3(*lows), Vec3(*highs)
-    return Box((low + high) * 0.5, (high - low) * 0.5)
-
-
-def _reach_of(shapes: list[Ellipsoids]) -> Number:
-    """Largest distance of a point of the shapes from the centre of mass [m]."""
-    numbers = [row for p in shapes for row in zip(*p.center, p.radius, strict=True)]
-    return greatest([sqrt(x * x + y * y + z * z) + radius for x, y, z, radius in numbers])
+def _payload_ends(vehicle: Vehicle) -> tuple[Array, Number]:
+    """Centres (n, 3) [m] and radius [m] of the spheres of a payload: the ends of a beam, or corners of bodies."""
+    if vehicle.beam is not None:
+        length, radius = vehicle.beam
+        return np.add(vehicle.origin, [[0.0, 0.5 * side * length, 0.0] for side in (-1.0, 1.0)]), radius
+    corners = [body.inset(CORNER) for body in vehicle.payload.hulls]
+    return np.add(vehicle.origin, np.concatenate(corners) if corners else np.zeros((0, 3))), CORNER

@@ -18,10 +18,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple, TypeVar
 
-from tandemlift.core.algebra import chosen, greatest, least, maximum, minimum, sqrt, where
+from tandemlift.core.algebra import chosen, greatest, maximum, minimum, sqrt, where
 from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number, NumberSet
-from tandemlift.core.vector import Absent, Vec3, apply, apply_transposed, cross, dot, each, is_set, set_of
+from tandemlift.core.vector import Absent, Vec3, apply, apply_transposed, cross, dot, is_set, set_of
 from tandemlift.parts.contact.polyhedron import Polyhedron, PolyhedronContact
 from tandemlift.parts.contact.spheres import ContactPair, RotorSpheres, WallContact, inverse_root
 from tandemlift.parts.contact.walls import Beam, BeamContact, NearWallContact, Walls, loads_of_walls
@@ -36,7 +36,7 @@ from tandemlift.parts.mechanics.loads import (
 )
 from tandemlift.parts.mechanics.rigid_body import RigidBody, State, about_center, apply_inertia, at_position
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.mechanics.wall_geometry import if_number, number_at
+from tandemlift.parts.mechanics.wall_geometry import first_number, only_number
 
 CORE = 0.25  # of the radius; the rest is left to the springs
 SWEEPS = 3  # over all kinds of contact; what is left of a collision of several parts is stopped in the next step
@@ -103,10 +103,8 @@ def approach(
 def after_worst(a: Approach, body: RigidBody, s: State) -> tuple[State, Any]:
     """The state once the worst of a set of contacts was stopped, and the impulses of all [N·s], a set."""
     change = change_needed(rate_along(a.normal, a.lever, s.velocity, s.rates), a.least)
-    count = len(change)
-    numbers = each(count)(*[1.0 + i for i in range(count)])
-    worst = least(number_at(change, greatest(change), numbers, 1.0 + count))
-    impulse = if_number(numbers, worst, change / a.mobility)
+    worst = first_number(change, greatest(change))
+    impulse = only_number(change / a.mobility, worst)
     forces, moments = sum_over_set(scaled(a.normal, impulse)), sum_over_set(scaled(a.lever, impulse))
     turned = apply_inertia(body.inverse_inertia, about_center(body.center, s.attitude, forces, moments))
     velocity = at_position(body.center, s.attitude, s.velocity + forces * body.inverse_mass, turned)
@@ -198,6 +196,7 @@ def impulses_of_walls(
     for i, a in [*enumerate(approaches)] * SWEEPS:
         after, impulse = after_worst(a, body, after)
         forces[i] = forces[i] + impulse * (1.0 / dt)
+    # without an impulse, the state keeps its bits
     after = chosen(greatest([greatest(force) for force in forces]), after, s)
     R, spheres = rotation_from_quaternion(s.attitude), 2 + len(contact.rotors)
     guards, rotors = struck_spheres(contact.guards, forces[:2]), struck_spheres(contact.rotors, forces[2:spheres])

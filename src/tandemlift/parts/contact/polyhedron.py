@@ -28,7 +28,8 @@ from tandemlift.parts.contact.beam_axis import (
     point_by_edge,
     point_by_top,
 )
-from tandemlift.parts.contact.spheres import SpringyWall, WallContact, sphere_contact
+from tandemlift.parts.contact.spheres import WallContact, about_arm, sphere_contact
+from tandemlift.parts.contact.springs import Springs
 from tandemlift.parts.mechanics.bodies import ConvexHull
 from tandemlift.parts.mechanics.loads import PartLoad, PartsLayout, sum_over_set, translated
 from tandemlift.parts.mechanics.rigid_body import State
@@ -39,14 +40,14 @@ from tandemlift.parts.mechanics.wall_geometry import (
     WALL,
     Wall,
     edges_of,
-    if_number,
-    nearer,
-    number_at,
+    first_number,
+    no_walls,
     offset,
     offset_from_top,
-    second_nearest,
+    only_number,
     selected,
     selected_wall,
+    two_nearest_to,
 )
 
 ROUNDING = 0.02  # m, radius of corners and edges, or a quarter of the body's width if that is less
@@ -156,10 +157,9 @@ def offset_from_tip(faces: Faces, radius: Number, edge: Wall, origin: Vec3, R: M
     """
     tip = apply_transposed(R, Vec3(edge.x, edge.y, edge.top) - origin)
     above = dot(faces.normal, tip) - faces.distance
-    most, count = greatest(above), len(faces.distance)
-    numbers = each(count)(*[1.0 + i for i in range(count)])
-    face = least(number_at(above, most, numbers, 1.0 + count))
-    normal = Vec3(*[total(if_number(numbers, face, axis)) for axis in faces.normal])
+    most = greatest(above)
+    face = first_number(above, most)
+    normal = Vec3(*[total(only_number(axis, face)) for axis in faces.normal])
     beside = greatest(dot(faces.normal, tip - normal * most) - faces.distance)
     return apply(R, normal * -where(beside < BESIDE, maximum(most + radius, LEAST), FAR))
 
@@ -192,23 +192,20 @@ def spots_by_walls(p: Polyhedron, near: NearPolyhedron, frame: PartsLayout, s: S
 
 
 @law
-def contact_at_spots(
-    w: SpringyWall, radius: Number, spots: Spots, origin: Vec3, velocity: Vec3, spin: Vec3
-) -> WallContact:
+def contact_at_spots(k: Springs, radius: Number, spots: Spots, origin: Vec3, velocity: Vec3, spin: Vec3) -> WallContact:
     """Contact of a body at some of its points, about an origin that moves at a velocity [m/s]; world axes."""
     arm = translated(-origin, spots.place)
     moving = translated(velocity, cross(spin, arm))
-    c = sphere_contact(w, spots.place, spots.offset, radius, moving, spin)
-    return c._replace(load=PartLoad(c.load.force, c.load.moment + cross(arm, c.load.force)))
+    return about_arm(sphere_contact(k, spots.place, spots.offset, radius, moving, spin), arm)
 
 
 @beam_contact.register(Polyhedron)
-def _polyhedron(p: Polyhedron, w: SpringyWall, near: NearPolyhedron, frame: PartsLayout, s: State) -> PolyhedronContact:
+def _polyhedron(p: Polyhedron, k: Springs, near: NearPolyhedron, frame: PartsLayout, s: State) -> PolyhedronContact:
     R = rotation_from_quaternion(s.attitude)
     spin, arm = apply(R, s.rates), apply(R, frame.payload)
     origin, velocity = s.position + arm, s.velocity + cross(spin, arm)
     spots = spots_by_walls(p, near, frame, s)
-    return PolyhedronContact(*[contact_at_spots(w, p.radius, some, origin, velocity, spin) for some in spots])
+    return PolyhedronContact(*[contact_at_spots(k, p.radius, some, origin, velocity, spin) for some in spots])
 
 
 @beam_load.register(PolyhedronContact)
@@ -256,20 +253,14 @@ def _near_polyhedron(p: Polyhedron, wall: Wall, near: NearPolyhedron, frame: Par
     for edge in edges_of(wall):
         edges = two_nearest(edge, *edges, *[square_from_edge(p, e, a, origin, R) for e in (edge, *edges)])
     tops = two_nearest(wall, *tops, *[least_square(by_top(a, p.half, one)) for one in (wall, *tops)])
-    return NearPolyhedron(
-        nearer(wall, near.first, corners, corners),
-        second_nearest(wall, near.first, near.second, corners, corners, corners),
-        *edges,
-        *tops,
-    )
+    return NearPolyhedron(*two_nearest_to(corners, wall, near.first, near.second), *edges, *tops)
 
 
 def no_walls_near_polyhedron(p: object) -> NearPolyhedron | Absent:
     """No wall is near; `Absent` for anything but a `Polyhedron`."""
     if not isinstance(p, Polyhedron):
         return Absent()
-    count = len(p.corners.x)
-    nowhere = Wall(*[each(count)(*[v] * count) for v in WALL])
+    nowhere = no_walls(len(p.corners.x))
     return NearPolyhedron(nowhere, nowhere, WALL, WALL, WALL, WALL)
 
 

@@ -6,22 +6,19 @@ own, and the guard's sphere stands for it.
 
 from __future__ import annotations
 
-from typing import NamedTuple, Protocol
-
-import numpy as np
-from numpy.typing import ArrayLike
+from typing import NamedTuple
 
 from tandemlift.core.algebra import greatest, maximum, sqrt, where
-from tandemlift.core.arrays import array
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import Number, PerRotor, number
-from tandemlift.core.vector import Absent, Mat3, Vec3, apply, cross, dot, each, spread
+from tandemlift.core.vector import Absent, Mat3, Vec3, apply, cross, dot, set_of, spread
 from tandemlift.parts.contact.hull import rotor_sums
-from tandemlift.parts.contact.springs import friction_factor, spring_damper
+from tandemlift.parts.contact.springs import Springs, friction_factor, spring_damper
 from tandemlift.parts.mechanics.loads import PartLoad, PartsLayout, scaled, translated
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.mechanics.wall_geometry import WALL, Wall, nearer, offset, second_nearest
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.wall_geometry import Wall, no_walls, offset, two_nearest_to
 
 SMALL = 1e-18  # m²: no direction is known at this distance
 SPARED = 0.02  # m, deflection of a guard under some 100 N
@@ -58,41 +55,38 @@ class ContactPair(NamedTuple):
     second: WallContact
 
 
-class SpringyWall(Protocol):
-    """Springs, dampers and friction of a contact with walls: k [N/m], c [N·s/m], μ and c_t [N·s/m]."""
-
-    @property
-    def stiffness(self) -> Number:
-        """k [N/m]."""
-
-    @property
-    def damping(self) -> Number:
-        """c [N·s/m]."""
-
-    @property
-    def friction(self) -> Number:
-        """μ."""
-
-    @property
-    def tangential_damping(self) -> Number:
-        """c_t [N·s/m]."""
-
-
 @law
-def sphere_contact(w: SpringyWall, p: Vec3, o: Vec3, radius: Number, velocity: Vec3, spin: Vec3) -> WallContact:
+def sphere_contact(k: Springs, p: Vec3, o: Vec3, radius: Number, velocity: Vec3, spin: Vec3) -> WallContact:
     """Contact of a wall with a sphere that moves at a velocity [m/s] and rotates at `spin` [rad/s], all in world axes.
 
-    p is its centre, o the offset of p from the wall [m]; w: a `Walls`; the moment is about p [N·m].
+    p is its centre, o the offset of p from the wall [m]; the moment is about p [N·m].
     """
     square = dot(o, o)
     inverse = inverse_root(square)
     n = scaled(o, inverse)
     rate = -dot(n, velocity)
-    normal = spring_damper(penetration(square * inverse, radius), rate, w.stiffness, w.damping)
-    sliding = scaled(velocity - cross(spin, o) + scaled(n, rate), w.tangential_damping)
-    factor = friction_factor(dot(sliding, sliding), normal * w.friction)
+    normal = spring_damper(penetration(square * inverse, radius), rate, k.stiffness, k.damping)
+    sliding = scaled(velocity - cross(spin, o) + scaled(n, rate), k.tangential_damping)
+    factor = friction_factor(dot(sliding, sliding), normal * k.friction)
     force = scaled(n, normal) - scaled(sliding, factor)
     return WallContact(normal, p - o, o, PartLoad(force, cross(force, o)))
+
+
+@law
+def about_arm(c: WallContact, arm: Vec3) -> WallContact:
+    """A contact with its moment about a point from which the part is at `arm` [m, world axes]."""
+    return c._replace(load=PartLoad(c.load.force, c.load.moment + cross(arm, c.load.force)))
+
+
+@law
+def contact_pair(
+    k: Springs, p: Vec3, first: Wall, second: Wall, radius: Number, velocity: Vec3, spin: Vec3
+) -> ContactPair:
+    """Contact of spheres about p with the two walls nearest to each; otherwise as `sphere_contact`."""
+    return ContactPair(
+        sphere_contact(k, p, offset(first, p), radius, velocity, spin),
+        sphere_contact(k, p, offset(second, p), radius, velocity, spin),
+    )
 
 
 class RotorSpheres(NamedTuple):
@@ -113,14 +107,11 @@ class NearRotors(NamedTuple):
 
 
 @law(absent="rotors")
-def rotor_wall_contact(rotors: RotorSpheres, w: SpringyWall, near: NearRotors, s: State, R: Mat3) -> ContactPair:
+def rotor_wall_contact(rotors: RotorSpheres, k: Springs, near: NearRotors, s: State, R: Mat3) -> ContactPair:
     """Contact of the rotors with the walls nearest to each, about their hubs; `Absent` where all are in guards."""
     spin, arm = apply(R, s.rates), apply(R, rotors.hub)
     p, v = translated(s.position, arm), translated(s.velocity, cross(spin, arm))
-    return ContactPair(
-        sphere_contact(w, p, offset(near.first, p), rotors.radius, v, spin),
-        sphere_contact(w, p, offset(near.second, p), rotors.radius, v, spin),
-    )
+    return contact_pair(k, p, near.first, near.second, rotors.radius, v, spin)
 
 
 @law(absent="load")
@@ -137,34 +128,23 @@ def with_rotor_loads(
 def nearest_to_rotors_with(rotors: RotorSpheres, wall: Wall, near: NearRotors, s: State) -> NearRotors:
     """The walls nearest to the rotors, with `wall` taken into account."""
     p = translated(s.position, apply(rotation_from_quaternion(s.attitude), rotors.hub))
-    return NearRotors(nearer(wall, near.first, p, p), second_nearest(wall, near.first, near.second, p, p, p))
+    return NearRotors(*two_nearest_to(p, wall, *near))
 
 
 def no_walls_near_rotors(rotors: RotorSpheres | Absent) -> NearRotors | Absent:
     """No wall is near."""
     if isinstance(rotors, Absent):
         return rotors
-    count = len(rotors.radius)
-    nowhere = Wall(*[each(count)(*[v] * count) for v in WALL])
+    nowhere = no_walls(len(rotors.radius))
     return NearRotors(nowhere, nowhere)
 
 
-def rotor_spheres(
-    quadrotors: ArrayLike, rotors: ArrayLike, radii: ArrayLike, guards: ArrayLike
-) -> RotorSpheres | Absent:
-    """The spheres of rotors that stand out of their guard; `Absent` if all are in it.
-
-    Args:
-        quadrotors: N × 3, their centres of mass from the system's [m, body axes].
-        rotors: N × 4 × 3, their hubs from the centre of their quadrotor [m, body axes].
-        radii: of the rotors, N [m].
-        guards: of the guards, N [m].
-    """
-    hubs, sizes = array(rotors), list[Number]()
-    for places, radius, guard in zip(hubs, np.asarray(radii), np.asarray(guards), strict=True):
-        rims = [sqrt(x * x + y * y) + radius for x, y, _ in places]
-        sizes += [where(rim > guard + SPARED, radius, 0.0) for rim in rims]
+def rotor_spheres(vehicle: Vehicle) -> RotorSpheres | Absent:
+    """The spheres of a vehicle's rotors that stand out of their guard; `Absent` if all are in it."""
+    sizes = list[Number]()
+    for q in vehicle.quadrotors:
+        rims = [sqrt(x * x + y * y) + q.rotor_radius for x, y in q.rotors]
+        sizes += [where(rim > q.guard_radius + SPARED, q.rotor_radius, 0.0) for rim in rims]
     if not greatest(sizes) > 0.0:
         return Absent()
-    hubs = (array(quadrotors)[:, None] + hubs).reshape(-1, 3)
-    return RotorSpheres(spread(hubs), each(len(sizes))(*map(number, sizes)))
+    return RotorSpheres(spread(vehicle.hubs), set_of(list(map(number, sizes))))

@@ -1,6 +1,6 @@
 """Springs and dampers of a contact: normal force, friction, and the stiffness that a Runge-Kutta step resolves."""
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,15 @@ from tandemlift.core.types import Number, number
 TINY = 1e-300  # N²: prevents 0/0 in the friction without contact
 OSCILLATION = 0.5  # rad a step: the fastest oscillation on springs that a Runge-Kutta step resolves well
 DECAY = 2.0  # time constants a step: the fastest decay; Runge-Kutta of order four is stable to 2.78
+
+
+class Springs(NamedTuple):
+    """Contact with walls: k [N/m], c [N·s/m], μ and c_t [N·s/m]."""
+
+    stiffness: Number
+    damping: Number
+    friction: Number
+    tangential_damping: Number
 
 
 @elementwise

@@ -1,20 +1,21 @@
-"""The vehicle's equilibrium on the floor at start and landing, and the checks of it."""
+"""The floor of a mission, `[ground]`: the vehicle's equilibrium on it at start and landing, and the checks of it."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
+from pydantic import Field
 
 from tandemlift.core.caching import cached
 from tandemlift.core.errors import CheckResult, refused, shown, warned
+from tandemlift.core.keys import Positive, Table, key
 from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import vec3
 from tandemlift.parts.contact.feet import Floor, floor, sinkage_of, standing_height
-from tandemlift.parts.contact.ground_table import GroundTable
-from tandemlift.parts.contact.hull import hull, lowest_of_hull
+from tandemlift.parts.contact.hull import Hull, hull, lowest_of_hull
 from tandemlift.parts.mechanics.rigid_body import InitialTable
 from tandemlift.parts.mechanics.rotation import rotation_from_euler
 from tandemlift.parts.mechanics.trajectories import PhasesTable
@@ -26,6 +27,39 @@ FAR_DOWN, FAR_UP = 0.02, 0.3  # m, of the landed reference above and below the h
 THROWN = 5.0  # times its sinkage
 NEARLY = 0.75  # of the impulse that ends a flight, as a contact returns some of it
 SOFT = 2.0  # times the specified sinkage
+
+
+class GroundTable(Table):
+    """`[ground]`: a level floor with friction. Feet stand on it; rotors, guards and beam touch it in all attitudes.
+
+    A rotor that touches floor or wall stops for the rest of the flight.
+    """
+
+    model: Literal["none", "floor"] = key(
+        "none", None, "model of the ground", choices={"none": "no ground", "floor": "a level floor"}
+    )
+    height: float | None = key(
+        None,
+        "m",
+        "height z of the floor",
+        rule="the vehicle starts at most 0.02 m deep in it",
+        unset="such that the level vehicle stands on it at the start",
+        example=-0.1688,
+    )
+    sinkage: Annotated[Positive, Field(le=0.1)] = key(
+        5e-4,
+        "m",
+        "depth of the feet in the floor under the vehicle's weight; a long step makes the floor softer",
+        source="chosen",
+    )
+    friction: Annotated[float, Field(ge=0.0, le=100.0)] = key(
+        0.8, "1", "coefficient of friction of floor and walls", source="chosen: rubber on a dry floor"
+    )
+    effect: bool = key(
+        False,
+        None,
+        'true: more thrust near the floor (Cheeseman and Bennett, 1955); needs `actuators.model = "rotors"`',
+    )
 
 
 class Standing(NamedTuple):
@@ -41,17 +75,24 @@ class Standing(NamedTuple):
 
 
 @cached
+def floor_under(vehicle: Vehicle, g: GroundTable, mass_scale: float, step: float, start: float) -> Floor:
+    """The floor under a vehicle; unless its height is given, the vehicle stands on it with its centre at `start`."""
+    mass = vehicle.mass * mass_scale
+    at_zero = floor(vehicle, mass, step, friction=g.friction, sinkage=g.sinkage, hull=hull(vehicle, mass, step))
+    height = start - standing_height(at_zero, mass * GRAVITY) if g.height is None else g.height
+    return at_zero._replace(height=height)
+
+
+@cached
 def standing_on(g: GroundTable, table: VehicleTable, mass_scale: float, step: float, start: InitialTable) -> Standing:
     """The equilibrium on the floor of a vehicle with this start, which is on the floor by default; `step` in s."""
     vehicle, z = Vehicle.from_settings(table), start.position[2]
-    mass, soles = vehicle.mass * mass_scale, vehicle.soles
-    shapes = hull(**vehicle.hull_shapes, mass=mass, inertia=vehicle.inertia, step=step)
-    built = floor(soles, mass, vehicle.inertia, step, friction=g.friction, sinkage=g.sinkage, hull=shapes)
-    stands, sinkage = standing_height(built, mass * GRAVITY), sinkage_of(built, mass * GRAVITY)
-    height = z - stands if g.height is None else g.height
+    ground, weight = floor_under(vehicle, g, mass_scale, step, z), vehicle.mass * mass_scale * GRAVITY
+    stands, sinkage = standing_height(ground, weight), sinkage_of(ground, weight)
     R = rotation_from_euler(vec3(start.euler))
-    lowest = z + min(float((soles @ np.array(R.z)).min()), lowest_of_hull(shapes, R))
-    return Standing(built._replace(height=height), height + stands, sinkage, height - lowest - sinkage)
+    assert isinstance(ground.hull, Hull)
+    lowest = z + min(float((vehicle.soles @ np.array(R.z)).min()), lowest_of_hull(ground.hull, R))
+    return Standing(ground, ground.height + stands, sinkage, ground.height - lowest - sinkage)
 
 
 def floor_checks(g: GroundTable, rotors: str, phases: PhasesTable, *, walls: bool) -> Iterator[CheckResult]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra import greatest, least, maximum, where
+from tandemlift.core.algebra import greatest, maximum, where
 from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import NEVER, Number, PerRotor
 from tandemlift.core.vector import ZERO, Absent, Vec3, each, set_of, total
@@ -18,7 +18,7 @@ from tandemlift.parts.contact.spheres import ContactPair, RotorSpheres
 from tandemlift.parts.contact.walls import Beam, BeamContact, NearWallContact, Walls
 from tandemlift.parts.mechanics.loads import translated
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.mechanics.wall_geometry import if_number, number_at
+from tandemlift.parts.mechanics.wall_geometry import first_number, only_number
 
 
 class TouchRecord(NamedTuple):
@@ -82,54 +82,43 @@ def first_or_second(first: Number, second: Number, a: Number, b: Number) -> Numb
     return where(second > first, b, a)
 
 
-@law
-def record_after(r: TouchRecord, contacts: PartContacts, t: Number, dt: Number) -> TouchRecord:
-    """The record after a step of dt [s] that began at time t [s] with these contacts."""
-    count = len(contacts.normal)
-    numbers, most = each(count)(*[1.0 + i for i in range(count)]), greatest(contacts.normal)
-    part = least(number_at(contacts.normal, most, numbers, 1.0 + count))
-    x, y, z = contacts.place
-    place = Vec3(*[total(if_number(numbers, part, axis)) for axis in (x, y, z)])
-    is_first = where(r.part > 0.5, 0.0, where(most > 0.0, 1.0, 0.0)) > 0.5
+@law(absent="record")
+def record_after(contacts: PartContacts, record: TouchRecord, t: Number, dt: Number) -> TouchRecord:
+    """The record after a step of dt [s] that began at time t [s]; unchanged without contacts."""
+    most = greatest(contacts.normal)
+    part = first_number(contacts.normal, most)
+    place = Vec3(*[total(only_number(axis, part)) for axis in contacts.place])
+    is_first = where(record.part > 0.5, 0.0, where(most > 0.0, 1.0, 0.0)) > 0.5
     sum_of_normals = total(contacts.normal)
     return TouchRecord(
-        where(is_first, t, r.time),
-        where(is_first, place, r.place),
-        where(is_first, part, r.part),
-        maximum(r.force, sum_of_normals),
-        r.impulse + sum_of_normals * dt,
+        where(is_first, t, record.time),
+        where(is_first, place, record.place),
+        where(is_first, part, record.part),
+        maximum(record.force, sum_of_normals),
+        record.impulse + sum_of_normals * dt,
     )
-
-
-@law(absent="record")
-def record_with(contacts: PartContacts, record: TouchRecord, t: Number, dt: Number) -> TouchRecord:
-    """The record after a step, unchanged without contacts."""
-    return record_after(record, contacts, t, dt)
 
 
 @law(absent="records")
 def surface_records_with(contacts: SurfaceContacts, records: SurfaceTouches, t: Number, dt: Number) -> SurfaceTouches:
     """The records of a surface after a step, unchanged while it is out of reach."""
     return SurfaceTouches(
-        record_with(contacts.rotors, records.rotors, t, dt),
-        record_with(contacts.guards, records.guards, t, dt),
-        record_with(contacts.beam, records.beam, t, dt),
+        record_after(contacts.rotors, records.rotors, t, dt),
+        record_after(contacts.guards, records.guards, t, dt),
+        record_after(contacts.beam, records.beam, t, dt),
     )
 
 
-@choice(absent="turning")
-def turning_after(contacts: SurfaceContacts | PartContacts | Absent, turning: PerRotor) -> PerRotor:
-    """The rotors that still turn after a step with contacts of a surface, of the rotors, or `Absent`."""
-
-
-@turning_after.register(PartContacts)
-def _after_contacts(contacts: PartContacts, turning: PerRotor) -> PerRotor:
+@law(absent="turning")
+def untouched(contacts: PartContacts, turning: PerRotor) -> PerRotor:
+    """The rotors that still turn after a step with these contacts of rotors."""
     return unless_touched(turning, contacts.normal)
 
 
-@turning_after.register(SurfaceContacts)
-def _after_surface(contacts: SurfaceContacts, turning: PerRotor) -> PerRotor:
-    return turning_after(contacts.rotors, turning)
+@law(absent="turning")
+def turning_after(contacts: SurfaceContacts, turning: PerRotor) -> PerRotor:
+    """The rotors that still turn after a step with contacts of a surface."""
+    return untouched(contacts.rotors, turning)
 
 
 @law

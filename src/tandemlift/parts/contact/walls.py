@@ -16,17 +16,15 @@ every state, so it stays exact in between. Impacts that springs would not stop a
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from tandemlift.core.algebra import greatest, minimum, sqrt
 from tandemlift.core.arrays import array, lengths
 from tandemlift.core.law import law
 from tandemlift.core.types import Array, Number, PerQuadrotor, number
-from tandemlift.core.vector import Absent, Mat3, apply, apply_transposed, cross, each
+from tandemlift.core.vector import Absent, Mat3, apply, apply_transposed, cross, set_of
 from tandemlift.parts.contact.beam_axis import (
     Beam,
     BeamContact,
@@ -46,34 +44,31 @@ from tandemlift.parts.contact.spheres import (
     ContactPair,
     NearRotors,
     RotorSpheres,
+    contact_pair,
     nearest_to_rotors_with,
     no_walls_near_rotors,
+    rotor_spheres,
     rotor_wall_contact,
-    sphere_contact,
     with_rotor_loads,
 )
-from tandemlift.parts.contact.springs import mobility, softened_for_step, surface_mobility
-from tandemlift.parts.mechanics.bodies import ConvexHull
+from tandemlift.parts.contact.springs import Springs, mobility, softened_for_step, surface_mobility
 from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PartsLayout, translated
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.mechanics.wall_geometry import WALL, Wall, nearer, offset, second_nearest
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.wall_geometry import WALL, Wall, no_walls, two_nearest_to
 
-IN_GUARDS = Absent()
 EDGES = 3  # of a body, which may press at a corner, too
 
 
 class Walls(NamedTuple):
-    """Contact with walls: k [N/m], c [N·s/m], μ and c_t [N·s/m]; `guards`: radius of every quadrotor's sphere [m].
+    """Contact with walls by `springs`; `guards`: radius of every quadrotor's sphere [m].
 
     `rotors`: a `RotorSpheres`, or `Absent` if all rotors are in their guard; `beam`: a `Beam`, a
     `Polyhedron`, or `Absent` if the payload has no shape; `reach` [m]: of all these from the centre of mass.
     """
 
-    stiffness: Number
-    damping: Number
-    friction: Number
-    tangential_damping: Number
+    springs: Springs
     guards: PerQuadrotor
     rotors: RotorSpheres | Absent
     beam: Beam | Polyhedron | Absent
@@ -103,12 +98,10 @@ def near_wall_contact(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -
     R = rotation_from_quaternion(s.attitude)
     spin, arm = apply(R, s.rates), apply(R, frame.quadrotors)
     p, v = translated(s.position, arm), translated(s.velocity, cross(spin, arm))
-    guards = ContactPair(
-        sphere_contact(w, p, offset(near.first, p), w.guards, v, spin),
-        sphere_contact(w, p, offset(near.second, p), w.guards, v, spin),
-    )
     return NearWallContact(
-        guards, rotor_wall_contact(w.rotors, w, near.rotors, s, R), beam_contact(w.beam, w, near.beam, frame, s)
+        contact_pair(w.springs, p, near.first, near.second, w.guards, v, spin),
+        rotor_wall_contact(w.rotors, w.springs, near.rotors, s, R),
+        beam_contact(w.beam, w.springs, near.beam, frame, s),
     )
 
 
@@ -131,8 +124,7 @@ def nearest_with(w: Walls, wall: Wall, near: NearWalls, frame: PartsLayout, s: S
     """The nearest walls, with `wall` (of numbers) taken into account."""
     p = translated(s.position, apply(rotation_from_quaternion(s.attitude), frame.quadrotors))
     return NearWalls(
-        nearer(wall, near.first, p, p),
-        second_nearest(wall, near.first, near.second, p, p, p),
+        *two_nearest_to(p, wall, near.first, near.second),
         nearest_to_rotors_with(w.rotors, wall, near.rotors, s),
         nearest_to_beam_with(w.beam, wall, near.beam, frame, s),
     )
@@ -140,46 +132,32 @@ def nearest_with(w: Walls, wall: Wall, near: NearWalls, frame: PartsLayout, s: S
 
 def no_walls_near(w: Walls) -> NearWalls:
     """No wall is near."""
-    walls, ends = [Wall(*[each(n)(*[v] * n) for v in WALL]) for n in (len(w.guards), 2)]
-    beam = NearBeam(ends, WALL, WALL, WALL) if isinstance(w.beam, Beam) else no_walls_near_polyhedron(w.beam)
-    return NearWalls(walls, walls, no_walls_near_rotors(w.rotors), beam)
+    nowhere = no_walls(len(w.guards))
+    beam = NearBeam(no_walls(2), WALL, WALL, WALL) if isinstance(w.beam, Beam) else no_walls_near_polyhedron(w.beam)
+    return NearWalls(nowhere, nowhere, no_walls_near_rotors(w.rotors), beam)
 
 
 def walls(
-    quadrotors: ArrayLike,
-    guards: ArrayLike,
-    mass: float,
-    inertia: ArrayLike,
-    step: float,
-    *,
-    friction: float,
-    rotors: RotorSpheres | Absent = IN_GUARDS,
-    beam: tuple[float, float] | None = None,
-    bodies: Sequence[ConvexHull] = (),
-    payload: ArrayLike = (0.0, 0.0, 0.0),
-    stiffness: float = 5000.0,
-    damping_ratio: float = 0.5,
+    vehicle: Vehicle, mass: float, step: float, friction: float, stiffness: float = 5000.0, damping_ratio: float = 0.5
 ) -> Walls:
-    """Contact of a vehicle with walls, with the given stiffness, or less for a long step [s] of the Runge-Kutta method.
+    """Contact of a vehicle with walls, with the given stiffness, or less for a long step of the Runge-Kutta method.
 
     Args:
-        quadrotors: N × 3, their centres of mass from the system's [m, body axes].
-        guards: radius of the sphere about each of them [m], one number or N.
-        mass: of the vehicle [kg].
-        inertia: 3 × 3 about its centre of mass [kg·m²].
+        vehicle: whose guards, rotors and payload touch walls.
+        mass: of the real vehicle [kg].
         step: [s].
-        friction: μ of guards, rotors and beam on walls.
-        rotors: a `RotorSpheres`, or `Absent` if all rotors are in their guard.
-        beam: length [m] of the axis and radius [m] of a capsule along body y, if the payload is one.
-        bodies: the convex hulls of the payload from its origin, if it has any.
-        payload: its origin from the system's centre of mass [m, body axes].
+        friction: μ of guards, rotors and payload on walls.
         stiffness: of a contact [N/m].
         damping_ratio: of the vehicle oscillating on one contact, without rotation.
     """
-    J, shape = array(inertia), Beam(number(beam[1]), each(2)(*_ends(beam))) if beam else polyhedron(bodies)
-    radii = np.broadcast_to(guards, len(array(quadrotors)))
-    of_payload = _payload_spheres(shape, payload)
-    spheres = [*zip(array(quadrotors), radii, strict=True), *of_payload]
+    J, origin, hulls = array(vehicle.inertia), vehicle.origin, vehicle.payload.hulls
+    shape: Beam | Polyhedron | Absent = polyhedron(hulls)
+    if vehicle.beam is not None:
+        length, radius = vehicle.beam
+        shape = Beam(number(radius), set_of([-0.5 * length, 0.5 * length]))
+    rotors, radii = rotor_spheres(vehicle), [number(q.guard_radius) for q in vehicle.quadrotors]
+    of_payload = _payload_spheres(shape, origin)
+    spheres = [*zip(array(vehicle.lever_arms), radii, strict=True), *of_payload]
     if isinstance(rotors, RotorSpheres):
         spheres += [(array([x, y, z]), radius) for x, y, z, radius in zip(*rotors.hub, rotors.radius, strict=True)]
     several = spheres + of_payload * EDGES if isinstance(shape, Polyhedron) else spheres
@@ -187,28 +165,17 @@ def walls(
     k, c = softened_for_step(stiffness, 2.0 * damping_ratio * sqrt(stiffness * mass), mobility(pressed, mass, J), step)
     tangential_mobility = sum(surface_mobility(center, radius, mass, J) for center, radius in spheres)
     reach = greatest([number(far + radius) for far, (_, radius) in zip(lengths(pressed), several, strict=True)])
-    for body in bodies:
-        reach = max(reach, float(lengths(np.add(payload, body.corners)).max()))
-    return Walls(
-        k,
-        c,
-        number(friction),
-        minimum(c, 1.0 / (tangential_mobility * step)),
-        each(len(radii))(*map(number, radii)),
-        rotors,
-        shape,
-        reach,
-    )
+    for body in hulls:
+        reach = max(reach, float(lengths(np.add(origin, body.corners)).max()))
+    # with more tangential damping, friction would reverse the sliding within a step
+    springs = Springs(k, c, number(friction), minimum(c, 1.0 / (tangential_mobility * step)))
+    return Walls(springs, set_of(radii), rotors, shape, reach)
 
 
-def _ends(beam: tuple[float, float]) -> tuple[float, float]:
-    return -0.5 * beam[0], 0.5 * beam[0]
-
-
-def _payload_spheres(shape: Beam | Polyhedron | Absent, payload: ArrayLike) -> list[tuple[Array, Number]]:
+def _payload_spheres(shape: Beam | Polyhedron | Absent, origin: Array) -> list[tuple[Array, Number]]:
     """Centre [m] and radius [m] of the ends of a beam, or of the corners of a body."""
     if isinstance(shape, Beam):
-        return [(np.add(payload, [0.0, end, 0.0]), shape.radius) for end in shape.ends]
+        return [(np.add(origin, [0.0, end, 0.0]), shape.radius) for end in shape.ends]
     if isinstance(shape, Absent):
         return []
-    return [(np.add(payload, corner), shape.radius) for corner in np.array(shape.corners).T]
+    return [(np.add(origin, corner), shape.radius) for corner in np.array(shape.corners).T]

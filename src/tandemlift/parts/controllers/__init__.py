@@ -31,8 +31,7 @@ from tandemlift.parts.controllers.interface import (
     NoMemory,
     control,
 )
-from tandemlift.parts.controllers.registry import CONTROLLERS, Controller, file_of, register
-from tandemlift.parts.controllers.trial_run import error_text
+from tandemlift.parts.controllers.registry import CONTROLLERS, Controller, error_text, file_of, register
 from tandemlift.parts.controllers.user_controller import controller, load_controller
 from tandemlift.parts.mechanics.rigid_body import UP, State, Wrench, apply_inertia, gyroscopic, inertia_value
 from tandemlift.parts.mechanics.rotation import (

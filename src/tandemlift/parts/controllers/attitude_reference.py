@@ -9,12 +9,11 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra import exp
 from tandemlift.core.law import choice, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.parts.controllers.interface import NoMemory
-from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass_step
+from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.trajectories import Reference
 
 
@@ -25,14 +24,11 @@ class Unfiltered(NamedTuple):
 class CommandFilter(NamedTuple):
     """Critically damped second-order filter ẍ = ω_f²(Θ_d − x) − 2ω_f ẋ, exact for Θ_d held over a step.
 
-    `bandwidth` ω_f [rad/s]; the rest is the transition of (x − Θ_d, ẋ) over one step.
+    `bandwidth` ω_f [rad/s]; `transition` of (x − Θ_d, ẋ) over one step, which is that of a low-pass.
     """
 
     bandwidth: Number
-    position_from_position: Number
-    position_from_velocity: Number
-    velocity_from_position: Number
-    velocity_from_velocity: Number
+    transition: LowPass
 
 
 class SmoothCommandFilter(NamedTuple):
@@ -82,11 +78,11 @@ def _unfiltered(kind: Unfiltered, memory: NoMemory, desired: Vec3) -> tuple[Atti
 def _filtered(
     kind: CommandFilter, memory: CommandFilterState, desired: Vec3
 ) -> tuple[AttitudeReference, CommandFilterState]:
-    x = memory.angles - desired
+    x, step = memory.angles - desired, kind.transition
     acceleration = -(x * (kind.bandwidth * kind.bandwidth) + memory.rates * (2.0 * kind.bandwidth))
     after = CommandFilterState(
-        desired + x * kind.position_from_position + memory.rates * kind.position_from_velocity,
-        x * kind.velocity_from_position + memory.rates * kind.velocity_from_velocity,
+        desired + x * step.value_from_value + memory.rates * step.value_from_rate,
+        x * step.rate_from_value + memory.rates * step.rate_from_rate,
     )
     return AttitudeReference(memory.angles, memory.rates, acceleration), after
 
@@ -111,6 +107,4 @@ def with_heading(tracked: AttitudeReference, reference: Reference) -> AttitudeRe
 
 def command_filter(bandwidth: float, step: float) -> CommandFilter:
     """The command filter of bandwidth ω_f [rad/s], sampled every `step` [s]."""
-    wh = bandwidth * step
-    decay = exp(-wh)
-    return CommandFilter(bandwidth, (1.0 + wh) * decay, step * decay, -bandwidth * wh * decay, (1.0 - wh) * decay)
+    return CommandFilter(bandwidth, low_pass(bandwidth, step))

@@ -68,6 +68,7 @@ def wanted_force(b: ControllerModel, acceleration: Vec3, measured: Measured, ref
     """
     ahead = reference.trajectory.acceleration + reference.lead
     force = (ahead + acceleration + UP * GRAVITY) * b.mass + b.drag_force * measured.state.velocity
+    # push and disturbance act on the vehicle already, so the rotors give that much less
     return force - measured.push * b.feedforward - measured.disturbance.force
 
 

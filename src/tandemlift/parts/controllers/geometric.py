@@ -176,6 +176,7 @@ def geometric(
     b1d = heading_vector(reference.yaw, reference.yaw_rate, reference.yaw_acceleration)
     desired, R = attitude_from_force(force, b1d), rotation_from_quaternion(state.attitude)
     moment = wanted_moment(k.vehicle, wanted_angular_acceleration(k, R, state.rates, desired), measured)
+    # the thrust follows u at once, along the actual axis; only the attitude waits for the filter
     return Command(Wrench(dot(u, Vec3(R.x.z, R.y.z, R.z.z)), moment), zxy_angles(desired.columns)), memory
 
 

@@ -205,6 +205,7 @@ def nftsmc(k: NFTSMC, memory: FilterMemory, measured: Measured, reference: Refer
     """The whole controller at one sample."""
     e = euler_from_quaternion(measured.state.attitude)
     force = position_law(k, measured.state, reference.trajectory, measured.push)
+    # lead and observer are not in the paper: they stay outside its law, and the limit holds for all together
     u = limit_tilt(k.tilt, force + reference.lead * k.mass - measured.disturbance.force)
     desired, memory = shape_reference(k.derivatives, memory, desired_orientation(k.inverse, u, e, reference.yaw))
     tracked = with_heading(desired, reference)

@@ -131,6 +131,7 @@ def pid(k: PID, memory: PIDState, measured: Measured, reference: Reference) -> t
     feedback, velocity = pid_step(k.velocity, memory.velocity, velocity_error)
     force = wanted_force(k.vehicle, feedback, measured, reference)
     u = limit_tilt(k.vehicle.tilt, force)
+    # the force that the tilt limit takes off must not wind the integral up
     velocity = back_calculated(velocity, (force - u) * k.tracking)
     tracked, shaped = tracked_attitude(k.vehicle, memory.shaped, e, u, reference)
     angle_rates = tracked.rates + wrap_angle(tracked.angles - e.angles) * k.attitude

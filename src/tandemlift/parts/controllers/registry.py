@@ -1,18 +1,26 @@
-"""The registry of controllers."""
+"""The registry of controllers, and the trial run of one from outside the package before it flies.
+
+Errors have a plain message with the line of the controller's file.
+"""
 
 from __future__ import annotations
 
 import functools
 import inspect
+import numbers
 import re
+import traceback
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from tandemlift.core.errors import InputError
-from tandemlift.parts.controllers.interface import ControllerTable
-from tandemlift.parts.controllers.trial_run import check_started, error_text, form
+from tandemlift.core.types import is_symbol
+from tandemlift.core.vector import ZERO, Quat, Vec3, layout
+from tandemlift.parts.controllers.interface import Command, ControllerTable, Disturbance, Measured, control
+from tandemlift.parts.mechanics.rigid_body import State, Wrench
+from tandemlift.parts.mechanics.trajectories import Reference, Trajectory
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 Start = Callable[[Any, Vehicle, float], tuple[object, object]]
@@ -83,3 +91,82 @@ def _checked(name: str, settings: type[ControllerTable], start: Start) -> Start:
         return gains, memory
 
     return checked
+
+
+COMMAND = Command(Wrench(0.0, ZERO), ZERO)
+SAMPLE = (  # ordinary inputs for the trial of a law
+    Measured(
+        State(Vec3(0.1, -0.2, 0.3), Vec3(0.1, 0.2, -0.1), Quat(0.98, 0.1, -0.1, 0.14), ZERO),
+        Vec3(0.5, -0.4, 0.3),
+        Disturbance(Vec3(0.2, 0.1, -0.3), Vec3(0.01, 0.02, -0.03)),
+    ),
+    Reference(
+        Trajectory(Vec3(0.2, 0.1, 0.5), Vec3(0.1, 0.0, 0.2), Vec3(0.0, 0.1, 0.3)), 0.1, 0.2, 0.1, Vec3(0.1, 0.0, -0.1)
+    ),
+)
+
+_tried: set[Any] = set()
+
+
+def check_started(name: str, gains: object, memory: object) -> None:
+    """Reject gains and a memory that cannot be compiled, or whose law fails or returns invalid values.
+
+    Raises:
+        InputError: with the reason, and the line if there is one.
+    """
+    if type(gains) not in control.table:
+        kind = type(gains).__name__
+        raise InputError(f"controller {name!r}: there is no law for its gains; mark one @control.register({kind})")
+    if type(gains) not in control.interpreted:
+        _check_numbers(name, "gains", gains)
+        _check_numbers(name, "memory", memory)
+        _try(name, gains, memory, layout(memory))
+
+
+def form(value: object) -> str:
+    """The structure of a value, such as Command(Wrench(number, Vec3), Vec3)."""
+    kind = "number" if isinstance(value, numbers.Real) else type(value).__name__
+    parts = value if isinstance(value, tuple) and not isinstance(value, (Vec3, Quat)) else ()
+    return f"{kind}({', '.join(map(form, parts))})" if parts else kind
+
+
+def _check_numbers(name: str, path: str, value: object) -> None:
+    if isinstance(value, tuple) and hasattr(value, "_fields"):
+        for field, part in zip(value._fields, value, strict=True):
+            _check_numbers(name, f"{path}.{field}", part)
+    elif path in ("gains", "memory") or not (isinstance(value, numbers.Real) or is_symbol(value)):
+        allowed = "a NamedTuple" if path in ("gains", "memory") else "a number, a Vec3 or a NamedTuple of them"
+        raise InputError(f"controller {name!r}: {path} is {form(value)}; it must be {allowed} to be compiled")
+
+
+def _try(name: str, gains: object, memory: object, like: object) -> None:
+    """Run a law once in plain Python, where errors are clearer than those of the compiler."""
+    law = control.table[type(gains)]
+    if (law, like) in _tried:
+        return
+    try:
+        answer: object = law(gains, memory, *SAMPLE)
+    except ArithmeticError:  # compiled code gives inf or nan here, which the law may handle
+        return
+    except Exception as error:
+        raise InputError(f"controller {name!r}: {error_text(error, law.__code__.co_filename)}") from error
+    code = law.__code__
+    place = f"controller {name!r}: {Path(code.co_filename).name}, line {code.co_firstlineno}: {law.__name__}()"
+    if type(answer) is not tuple or len(answer) != 2:
+        raise InputError(f"{place} must return (Command, memory), not {form(answer)}")
+    command, after = answer
+    if layout(command) != layout(COMMAND):
+        raise InputError(f"{place} must return {form(COMMAND)} and the memory, not {form(command)} and the memory")
+    if layout(after) != like:
+        raise InputError(f"{place} must keep its memory: it starts as {form(memory)} and cannot become {form(after)}")
+    _tried.add((law, like))
+
+
+def error_text(error: BaseException, file: str) -> str:
+    """An error in one line, with its line in the file."""
+    name, kind = Path(file).name, "" if isinstance(error, InputError) else f"{type(error).__name__}: "
+    lines: list[Any] = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == file]
+    said: object = error
+    if isinstance(error, SyntaxError) and error.filename == file:
+        lines, said = [error.lineno], error.msg
+    return f"{name}{f', line {lines[-1]}' if lines else ''}: {kind}{said}"

@@ -12,10 +12,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from tandemlift.core.algebra import absolute, maximum
 from tandemlift.core.keys import Positive6, key
-from tandemlift.core.law import elementwise, law
-from tandemlift.core.types import Number
+from tandemlift.core.law import law
 from tandemlift.core.vector import Vec3, vec3
 from tandemlift.parts.controllers.attitude_reference import CommandFilterState
 from tandemlift.parts.controllers.cascade import (
@@ -70,12 +68,6 @@ class SMC(NamedTuple):
 def switched_acceleration(k: LinearSurface, e: Vec3, de: Vec3) -> Vec3:
     """λė + K sat(S/Φ) with S = ė + λe, to be added to the reference acceleration."""
     return k.slope * de + k.gain * saturate((de + k.slope * e) * k.per_width)
-
-
-@elementwise
-def layer_reaching_time(gain: Number, width: Number, S0: Number, disturbance: Number) -> Number:
-    """The time [s] by which |S| ≤ Φ from S₀ when |δ| < K: (|S₀| − Φ)/(K − |δ|), exact for a δ that opposes."""
-    return maximum(absolute(S0) - width, 0.0) / (gain - absolute(disturbance))
 
 
 @control.register(SMC)

@@ -13,8 +13,7 @@ from types import FunctionType, ModuleType
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.law import LAWS
 from tandemlift.core.vector import dot
-from tandemlift.parts.controllers.registry import CONTROLLERS, Controller, file_of
-from tandemlift.parts.controllers.trial_run import error_text
+from tandemlift.parts.controllers.registry import CONTROLLERS, Controller, error_text, file_of
 
 _loaded: dict[str, list[Controller]] = {}  # by their modules
 

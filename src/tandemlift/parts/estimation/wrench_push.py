@@ -38,9 +38,8 @@ from tandemlift.parts.mechanics.rigid_body import UP, State, Wrench, inertia_val
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import wrench
-from tandemlift.parts.rotors.ground_effect import GroundEffect, ground_effect_ratio
+from tandemlift.parts.rotors.ground_effect import GroundEffect, ground_effect_from, ground_effect_ratio
 from tandemlift.parts.rotors.rotor_lag import lag_step
-from tandemlift.parts.rotors.rotors import ground_effect_from
 from tandemlift.parts.sensors.off_center import OffCenter, at_center, off_center_at
 from tandemlift.parts.sensors.readings import Readings
 from tandemlift.parts.sensors.sensors_table import SensorsTable, noise_scale
@@ -216,7 +215,7 @@ def start_wrench_push(
     body = NominalBody(vehicle.mass, inertia_value(vehicle.inertia), inertia_value(inverse(vehicle.inertia)))
     observer, memory = start_wrench_observer(e.wrench, e.wrench_observer, body, noise, interval)
     rotors, speeds = rotor_model(vehicle, interval)
-    surface = Absent() if floor is None else ground_effect_from(vehicle, floor)
+    surface = ground_effect_from(vehicle, floor)
     delay, undelayed = rotor_delay(late + 0.5 * interval, vehicle.mass, noise.accelerometer, interval)
     payload = vehicle.payload
     push = WrenchPush(

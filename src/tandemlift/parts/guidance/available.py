@@ -7,9 +7,10 @@ from typing import NamedTuple
 from tandemlift.core.algebra import maximum, sqrt, tan, where
 from tandemlift.core.law import law
 from tandemlift.core.types import GRAVITY, Number, PerRotor
-from tandemlift.core.vector import Absent, Vec3, each, total
+from tandemlift.core.vector import Absent, Vec3, total
 from tandemlift.parts.mechanics.rigid_body import UP
 from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.rotors.allocation import thrust_limits
 from tandemlift.parts.rotors.rotor_faults import RotorFaults, efficiency_at
 
 
@@ -59,11 +60,10 @@ def start_available(
     vehicle: Vehicle, thrust_fraction: Number, max_tilt: Number, known: RotorFaults | Absent
 ) -> AvailableForce:
     """The available thrust and tilt, by a fraction of the thrust and a largest tilt [rad]; `known`: rotor faults."""
-    rotors = each(vehicle.rotor_count)
     return AvailableForce(
         mass=vehicle.mass,
         max_thrust=vehicle.max_thrust * thrust_fraction,
         tangent=tan(max_tilt),
-        limits=rotors(*[q.thrust_limit for q in vehicle.quadrotors for _ in range(4)]),
+        limits=thrust_limits(vehicle),
         known=known,
     )

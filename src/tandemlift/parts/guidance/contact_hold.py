@@ -137,6 +137,7 @@ def react_to_contact(
     level = where(begins > 0.0, here, where(touching > 0.0, maximum(m.level, here), m.level))
     free_time = (m.free_time + dt) * (1.0 - touching)
     holding = maximum(touching, where(free_time < k.recovery_time, m.holding, 0.0)) * aloft
+    # it counts down, too, so that a vehicle that bounces on a wall lands as one that stays there
     held_time = where(holding > 0.0, m.held_time + dt, maximum(m.held_time - dt, 0.0))
     other = begins * where(c.part == m.part, 1.0 - m.holding, 1.0)
     code = where(other > 0.0, code_of(c.part, c.normal, c.along), m.code) * holding
@@ -153,15 +154,10 @@ def react_to_contact(
     return boundary, ContactReactionState(holding, normal, level, lever, part, free_time, held_time, code, push)
 
 
-@law
+@within.register(Boundary)
 def outward(b: Boundary, v: Vec3) -> Vec3:
     """A vector without its part into the wall."""
     return v - b.normal * (minimum(dot(b.normal, v), 0.0) * b.on)
-
-
-@within.register(Boundary)
-def _outward(boundary: Boundary, acceleration: Vec3) -> Vec3:
-    return outward(boundary, acceleration)
 
 
 @law(absent="m")

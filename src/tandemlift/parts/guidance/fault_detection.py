@@ -158,12 +158,6 @@ def distance_outside(low: Vec3, high: Vec3, p: Vec3) -> Number:
 
 
 @law
-def outside(f: Fence, p: Vec3) -> Number:
-    """1 if a position is outside the fence by more than the margin, else 0."""
-    return where(distance_outside(f.low, f.high, p) > f.margin, 1.0, 0.0)
-
-
-@law
 def update_timers(
     b: SupervisionLimits,
     t: LimitTimers,
@@ -233,7 +227,7 @@ def active_faults(
         velocity_inconsistent=r.velocity_inconsistent,
         state=expired(timers.state, b.invalid_state_time),
         orientation=no_attitude,
-        fence=fenced * outside(fence, state.position),
+        fence=fenced * where(distance_outside(fence.low, fence.high, state.position) > fence.margin, 1.0, 0.0),
         thrust=expired(timers.thrust, b.thrust_time),
         tilt=expired(timers.tilt, b.tilt_time),
         rates=expired(timers.rates, b.rates_time),

@@ -123,8 +123,7 @@ def _checked(
     g: HandGuidance, m: HandGuidanceState, pilot_input: PilotInput, thrust: Number, rotor_failed: Number
 ) -> PilotInput:
     usable = usable_input(g.supervision, m.supervision, pilot_input, thrust, rotor_failed)
-    status = usable.status._replace(limited=m.following.reason)
-    return pilot_input._replace(state=usable.state, push=usable.push, moment=usable.moment, status=status)
+    return usable._replace(status=usable.status._replace(limited=m.following.reason))
 
 
 @law
@@ -249,10 +248,12 @@ def _by_hand(
     dt: Number,
 ) -> tuple[Guidance, HandGuidanceState]:
     state = pilot_input.state
+    # first of all, because no other part may take the force of a wall for a push
     boundary, contact = react_to_contact(g.contact, m.contact, pilot_input, in_the_air(m.phase), dt)
     pilot_input = without_wall(boundary, pilot_input)
     phase, supervised, memory = supervised_phase(g, m, pilot_input, boundary, rotor_failed, t, dt)
     allowed = phase_output(g.phasing, phase, t)
+    # the reference is corrected before the compliance moves it, so no correction appears as an acceleration
     before = kept_out(boundary, grounded_at(allowed, m.compliance, state), dt)
     eased, factors = policy_damping(g.compliance.policy, before.output, before.velocity, allowed.responding)
     dissipated = dot(before.velocity * g.compliance.admittance.damping, before.velocity)

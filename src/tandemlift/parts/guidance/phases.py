@@ -149,6 +149,7 @@ def next_phase(
     followed = where(bounds.contact > 0.0, CONTACT, GUIDED)
     landed = is_in(m, LAND) * maximum(where((t - m.since) * m.land_rate >= 1.0, 1.0, 0.0), bounds.touched_down)
     able = where(guided > 0.0, followed, HOLD)
+    # from the weakest to the strongest: each line overrules those before it
     phase = where(lifts > 0.0, LIFT, m.phase)
     phase = where(up > 0.0, where(bounds.limited > 0.0, LIMITED, able), phase)
     phase = where(lands > 0.0, LAND, where(landed > 0.0, IDLE, phase))

@@ -75,17 +75,11 @@ def _without_sensors(sensed: Absent, payload: Number) -> SensorStatus:
     return SensorStatus(WELL, 0.0, 1.0, payload)
 
 
-@law
-def first_check(number: Number, fails: Number, others: Number) -> Number:
-    """The number of a check if it fails (above 0), else that of the first of the others."""
-    return where(fails > 0.0, number, others)
-
-
 def first_failed(before: str, fails: Mapping[str, Any]) -> Number:
     """The number of the first check before a phase that fails (above 0, by the check's key), or 0."""
     number = 0.0
     for check in reversed([c for c in CHECKS if c.before == before]):
-        number = first_check(float(check.number), fails[check.key], number)
+        number = where(fails[check.key] > 0.0, float(check.number), number)
     return number
 
 

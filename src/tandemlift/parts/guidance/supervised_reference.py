@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from tandemlift.core.algebra import chosen, clip, maximum, where
 from tandemlift.core.law import Absent, choice, elementwise, law
 from tandemlift.core.types import Number
@@ -20,42 +18,31 @@ from tandemlift.parts.sensors.watchdog import state_not_finite
 TOUCHDOWN_FACTOR = 8.0  # by which a blind descent accelerates at its end, so that the feet press on the ground
 
 
-class UsableInput(NamedTuple):
-    """State and push with finite values, and the status of the vehicle."""
-
-    state: State
-    push: Vec3
-    moment: Vec3
-    status: VehicleStatus
-
-
 @choice
 def usable_input(
     k: Supervision | Absent, m: SupervisionState | Absent, pilot_input: PilotInput, thrust: Number, rotor_failed: Number
-) -> UsableInput:
-    """`UsableInput` from the pilot's input, the thrust of all rotors [N], and 1 once a rotor has failed, else 0."""
+) -> PilotInput:
+    """The pilot's input with the status of the vehicle and, supervised, with finite state and push.
+
+    `thrust` of all rotors [N]; `rotor_failed`: 1 once a rotor has failed, else 0.
+    """
 
 
 @usable_input.register(Absent)
-def _unchecked(k: Absent, m: Absent, pilot_input: PilotInput, thrust: Number, rotor_failed: Number) -> UsableInput:
-    status = VehicleStatus(rotor_failed, thrust, state_invalid=0.0)
-    return UsableInput(pilot_input.state, pilot_input.push, pilot_input.moment, status)
+def _unchecked(k: Absent, m: Absent, pilot_input: PilotInput, thrust: Number, rotor_failed: Number) -> PilotInput:
+    return pilot_input._replace(status=VehicleStatus(rotor_failed, thrust, state_invalid=0.0))
 
 
 @usable_input.register(Supervision)
 def _with_numbers(
     k: Supervision, m: SupervisionState, pilot_input: PilotInput, thrust: Number, rotor_failed: Number
-) -> UsableInput:
-    s, invalid = pilot_input.state, state_not_finite(pilot_input.state)
-    state = State(
-        chosen(invalid, m.state.position, s.position),
-        chosen(invalid, m.state.velocity, s.velocity),
-        chosen(invalid, m.state.attitude, s.attitude),
-        chosen(invalid, m.state.rates, s.rates),
-    )
+) -> PilotInput:
+    invalid = state_not_finite(pilot_input.state)
+    state = chosen(invalid, m.state, pilot_input.state)
     no_push = maximum(any_component(not_finite(pilot_input.push)), any_component(not_finite(pilot_input.moment)))
     push, moment = chosen(no_push, ZERO, pilot_input.push), chosen(no_push, ZERO, pilot_input.moment)
-    return UsableInput(state, push, moment, VehicleStatus(rotor_failed, thrust, invalid))
+    status = VehicleStatus(rotor_failed, thrust, invalid)
+    return pilot_input._replace(state=state, push=push, moment=moment, status=status)
 
 
 @elementwise

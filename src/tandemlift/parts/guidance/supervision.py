@@ -162,6 +162,7 @@ def update_reaction(
     """The memory with the strongest reaction to the faults that are present; `idle` is 1 on the ground, else 0."""
     raised = where(w.reaction > m.reaction, 1.0, 0.0)
     fault_free_time = where(w.reaction > 0.0, 0.0, m.fault_free_time + dt)
+    # a hold ends by itself; a landing and a stop (above HOLDS) last until the vehicle is on the ground
     over = where(fault_free_time < k.recovery_time, 0.0, where(m.reaction > HOLDS, idle, 1.0))
     reaction = where(raised > 0.0, w.reaction, m.reaction * (1.0 - over))
     alarm = where(raised > 0.0, w.alarm, m.alarm * (1.0 - over))
@@ -201,6 +202,7 @@ def filled_slot(old: Number, slot: Number, count: Number, new: Number, value: Nu
 @law
 def with_event(k: Supervision, m: EventLog, now: Number, failed_check: Number, t: Number) -> EventLog:
     """The log, with one more event if phase, alarm or contact (the code `now`) have changed, or another check fails."""
+    # `last` contains the failed check, `now` does not yet
     changed = where(now == m.last - m.failed_check, 0.0, 1.0)
     other = where(failed_check > 0.0, where(failed_check == m.failed_check, 0.0, 1.0), 0.0)
     new = maximum(changed, other)

@@ -11,7 +11,7 @@ from tandemlift.core.algebra import cos
 from tandemlift.core.errors import CheckResult, refused, shown
 from tandemlift.core.faults import FAULTS, REACTION_MEANINGS, REACTIONS, Fault, Reaction
 from tandemlift.core.keys import NonNegative, Positive, Table, key
-from tandemlift.core.vector import Absent, Vec3, each, vec3
+from tandemlift.core.vector import Absent, set_of, vec3
 from tandemlift.parts.guidance.fault_detection import (
     NO_TIME,
     ActiveFaults,
@@ -25,6 +25,7 @@ from tandemlift.parts.guidance.supervision import EventLog, Supervision, Supervi
 from tandemlift.parts.mechanics.rigid_body import InitialTable, State
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
 from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.rotors.allocation import thrust_limits
 from tandemlift.parts.rotors.rotor_faults import RotorFaults
 from tandemlift.parts.sensors.watchdog import WatchTable
 
@@ -116,27 +117,25 @@ def start_supervision(
         initial: the state at the start.
         known: the known rotor faults.
     """
-    s, i = table, initial
-    if s.model == "none":
+    if table.model == "none":
         return Absent(), Absent()
-    slots, rotors = each(SLOTS), each(vehicle.rotor_count)
     supervision = Supervision(
         mass=vehicle.mass,
         payload=vehicle.payload.mass,
-        limits=rotors(*[q.thrust_limit for q in vehicle.quadrotors for _ in range(4)]),
+        limits=thrust_limits(vehicle),
         known=known,
-        checks=_checks(s.checks, vehicle),
-        fence=Fence(vec3(s.fence.low), vec3(s.fence.high), s.fence.margin, s.fence.braking_gain),
-        bounds=_limits(s),
-        reactions=ActiveFaults(**{name: float(REACTIONS.index(r)) for name, r in s.reactions}),
-        hold_timeout=s.hold_timeout,
-        recovery_time=s.recovery_time,
-        blind_descent_depth=s.blind_descent_depth,
-        blind_descent_acceleration=s.blind_descent_acceleration,
-        slots=slots(*map(float, range(SLOTS))),
+        checks=_checks(table.checks, vehicle),
+        fence=Fence(vec3(table.fence.low), vec3(table.fence.high), table.fence.margin, table.fence.braking_gain),
+        bounds=_limits(table),
+        reactions=ActiveFaults(**{name: float(REACTIONS.index(r)) for name, r in table.reactions}),
+        hold_timeout=table.hold_timeout,
+        recovery_time=table.recovery_time,
+        blind_descent_depth=table.blind_descent_depth,
+        blind_descent_acceleration=table.blind_descent_acceleration,
+        slots=set_of([float(slot) for slot in range(SLOTS)]),
     )
-    at, empty = Vec3(*i.position), slots(*(0.0,) * SLOTS)
-    state = State(at, vec3(i.velocity), quaternion_from_euler(vec3(i.euler)), vec3(i.rates))
+    at, empty = vec3(initial.position), set_of([0.0] * SLOTS)
+    state = State(at, vec3(initial.velocity), quaternion_from_euler(vec3(initial.euler)), vec3(initial.rates))
     return supervision, SupervisionState(
         reaction=0.0,
         alarm=0.0,

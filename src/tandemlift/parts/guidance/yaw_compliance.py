@@ -125,6 +125,7 @@ def _turning(
     beyond, band = dead_band(k.band, m.band, filtered.value, phase.responding, dt)
     output = low_pass_step(k.output_filter, m.output, beyond)
     acceleration = (output.value - clip(k.damping * m.rate, -k.max_moment, k.max_moment)) * k.inverse_inertia
+    # the lead is limited after the step, so the reference waits for a vehicle that cannot rotate
     ahead = wrap_angle(m.angle + m.rate * dt + acceleration * (0.5 * dt * dt) - yaw)
     airborne = 1.0 - phase.grounded
     lead = k.max_lead_angle * airborne

@@ -5,11 +5,10 @@ A vector for every quadrotor is a `Vec3` of sets. A joint transmits the load of 
 
 from typing import NamedTuple
 
-from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import GRAVITY, Number, PerQuadrotor, PerRotor
 from tandemlift.core.vector import (
     ZERO,
-    Absent,
     Mat3,
     Quarters,
     Quat,
@@ -146,7 +145,7 @@ def specific_force_at(s: State, a: Acceleration, r: Vec3) -> Vec3:
     # paper: kinematic_equ
     g = apply_transposed(rotation_from_quaternion(s.attitude), a.linear + UP * GRAVITY)
     turn = cross(cross(r, s.rates), s.rates) - cross(r, a.angular)
-    return Vec3(add_to_each(turn.x, g.x), add_to_each(turn.y, g.y), add_to_each(turn.z, g.z))
+    return translated(g, turn)
 
 
 @law
@@ -164,19 +163,15 @@ def perfect_readings(frame: PartsLayout, s: State, a: Acceleration, thrusts: Per
 
 @law
 def without_negative_zero(v: Vec3) -> Vec3:
-    """A vector of sets with no −0 in it."""
-    return Vec3(add_to_each(v.x, 0.0), add_to_each(v.y, 0.0), add_to_each(v.z, 0.0))
+    """A vector of sets with no −0 in it: −0 + 0 is 0."""
+    return translated(ZERO, v)
 
 
-@choice(absent="readings")
+@law(absent="readings")
 def readings_with_load(
-    load: PartLoad | Absent, frame: PartsLayout, attitude: Quat, readings: PerfectReadings
+    load: PartLoad, frame: PartsLayout, attitude: Quat, readings: PerfectReadings
 ) -> PerfectReadings:
     """The readings with a load on the quadrotors, which their joints transmit to the payload."""
-
-
-@readings_with_load.register(PartLoad)
-def _loaded(load: PartLoad, frame: PartsLayout, attitude: Quat, readings: PerfectReadings) -> PerfectReadings:
     force = without_negative_zero(apply_transposed(rotation_from_quaternion(attitude), load.force))
     torque = readings.joint_torque + without_negative_zero(load.moment - cross(frame.joints, force))
     return PerfectReadings(readings.specific_force, readings.joint_force + force, torque, readings.contact_force)

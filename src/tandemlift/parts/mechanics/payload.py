@@ -141,6 +141,11 @@ class Payload(Table):
         return self
 
     @property
+    def _rod(self) -> tuple[float, float]:
+        """Length and radius [m] of a beam; 0 for one that it does not have."""
+        return (self.length or 0.0, self.radius or 0.0)
+
+    @property
     def moments(self) -> Triple:
         """Jx, Jy, Jz [kg m²]: as given, of an even box, or of a thin rod along y (m L²/12) with a solid section."""
         if self.inertia is not None:
@@ -148,7 +153,7 @@ class Payload(Table):
         if self.size is not None:
             x, y, z = (self.mass * side**2 / 12.0 for side in self.size)
             return (y + z, x + z, x + y)
-        length, radius = (0.0 if size is None else size for size in (self.length, self.radius))
+        length, radius = self._rod
         across = self.mass * length**2 / 12.0
         return (across, self.mass * radius**2 / 2.0, across)
 
@@ -166,7 +171,7 @@ class Payload(Table):
         if self.hulls:
             x, y, z = map(sum, zip(*[hull.areas for hull in self.hulls], strict=True))
             return x, y, z
-        length, radius = (0.0 if size is None else size for size in (self.length, self.radius))
+        length, radius = self._rod
         return (2.0 * radius * length, math.pi * radius**2, 2.0 * radius * length)
 
     @property
@@ -182,7 +187,7 @@ class Payload(Table):
         if self.hulls:
             corners = np.concatenate([hull.corners for hull in self.hulls])
             return corners.min(axis=0), corners.max(axis=0)
-        length, radius = (0.0 if size is None else size for size in (self.length, self.radius))
+        length, radius = self._rod
         half = np.array([radius, 0.5 * length, radius])
         return -half, half
 

@@ -210,5 +210,6 @@ def rk4(body: object, s: State, k1: State, u: Wrench, hand: PushSamples[Push], d
     k2 = motion(body, s + k1 * (0.5 * dt), u, hand.middle)
     k3 = motion(body, s + k2 * (0.5 * dt), u, hand.middle)
     k4 = motion(body, s + k3 * dt, u, hand.end)
+    # the stages need no unit norm; one projection a step keeps the error of the norm from adding up
     s = s + k1 * (dt / 6.0) + k2 * (dt / 3.0) + k3 * (dt / 3.0) + k4 * (dt / 6.0)
     return State(s.position, s.velocity, s.attitude * (1.0 / sqrt(dot(s.attitude, s.attitude))), s.rates)

@@ -142,9 +142,10 @@ class Vehicle:
         return np.array([q.position for q in self.quadrotors]) - self.center_of_mass
 
     @property
-    def rotor_hubs(self) -> list[list[tuple[float, float, float]]]:
-        """The hubs of every quadrotor's rotors from its centre of mass [m], body axes (N × 4 × 3)."""
-        return [[(x, y, q.rotor_height) for x, y in q.rotors] for q in self.quadrotors]
+    def hubs(self) -> Array:
+        """The hubs of all rotors from the system's centre of mass [m], body axes (4 N × 3)."""
+        hubs = array([[(x, y, q.rotor_height) for x, y in q.rotors] for q in self.quadrotors])
+        return (self.lever_arms[:, None] + hubs).reshape(-1, 3)
 
     @property
     def soles(self) -> Array:
@@ -156,19 +157,6 @@ class Vehicle:
         """Length and radius [m] of a payload that is a beam, else None."""
         payload = self.payload
         return (payload.length, payload.radius) if payload.length is not None and payload.radius is not None else None
-
-    @property
-    def hull_shapes(self) -> dict[str, Any]:
-        """The shapes that meet a floor, as arguments of `parts.contact.hull.hull`."""
-        return {
-            "quadrotors": self.lever_arms,
-            "rotors": self.rotor_hubs,
-            "radii": [q.rotor_radius for q in self.quadrotors],
-            "guards": [q.guard_radius for q in self.quadrotors],
-            "beam": self.beam,
-            "bodies": self.payload.hulls,
-            "payload": self.origin,
-        }
 
     @cached_property
     def box(self) -> tuple[Array, Array]:

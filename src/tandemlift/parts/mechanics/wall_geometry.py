@@ -5,10 +5,10 @@ World axes. A rectangle of numbers serves one point, one of sets serves a set of
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra import absolute, clip, maximum, where
+from tandemlift.core.algebra import absolute, clip, least, maximum, where
 from tandemlift.core.law import elementwise, law
-from tandemlift.core.types import Number, number
-from tandemlift.core.vector import Vec3, dot
+from tandemlift.core.types import Number, NumberSet, number
+from tandemlift.core.vector import Vec3, dot, set_of
 
 SEAM = 1e-8  # m²: rectangles nearer to each other than this are joined there
 AWAY = 1e6  # m, place of a rectangle that stands for none
@@ -30,6 +30,11 @@ class Wall(NamedTuple):
 
 
 WALL = Wall(AWAY, AWAY, 0.0, 0.0, 0.0, -AWAY)  # nowhere
+
+
+def no_walls(count: int) -> Wall:
+    """A wall that is nowhere for each of `count` points, as sets."""
+    return Wall(*[set_of([value] * count) for value in WALL])
 
 
 def wall(start: tuple[float, float], end: tuple[float, float], top: float) -> Wall:
@@ -110,6 +115,25 @@ def if_number(number: Number, wanted: Number, value: Number) -> Number:
 
 
 @law
+def first_number(values: NumberSet, limit: Number) -> Number:
+    """The number, counted from 1, of the first value of a set that reaches a limit."""
+    count = len(values)
+    return least(number_at(values, limit, numbers(count), 1.0 + count))
+
+
+@law
+def only_number(values: NumberSet, wanted: Number) -> NumberSet:
+    """A set of values with 0 in the place of all but the one with the `wanted` number, counted from 1."""
+    kept: NumberSet = if_number(numbers(len(values)), wanted, values)
+    return kept
+
+
+def numbers(count: int) -> NumberSet:
+    """1, 2, 3, … as a set."""
+    return set_of([1.0 + i for i in range(count)])
+
+
+@law
 def selected_wall(d: Number, limit: Number, a: Wall, b: Wall) -> Wall:
     """The wall a where d < limit, else b."""
     return Wall(
@@ -127,6 +151,12 @@ def nearer(wall: Wall, other: Wall, p: Vec3, q: Vec3) -> Wall:
     """The nearer of two walls; the distance of the first is taken from p, that of the other from q."""
     d, e = offset(wall, p), offset(other, q)
     return selected_wall(dot(d, d), dot(e, e), wall, other)
+
+
+@law
+def two_nearest_to(p: Vec3, wall: Wall, first: Wall, second: Wall) -> tuple[Wall, Wall]:
+    """The two of three walls that are nearest to p, `first` nearer than `second`."""
+    return nearer(wall, first, p, p), second_nearest(wall, first, second, p, p, p)
 
 
 @law

@@ -16,12 +16,12 @@ from pydantic import Field
 from tandemlift.core.algebra import clip, cos, maximum, sqrt
 from tandemlift.core.arrays import distance
 from tandemlift.core.keys import NonNegative, PerAxis, Positive, Table, key
-from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Absent, Vec3, apply, apply_transposed, cross, dot, spread, vec3
-from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PartsLayout, add_to_each
+from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PartsLayout, translated
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.mechanics.rotation import PI, rotation_from_quaternion
 from tandemlift.parts.mechanics.turbulence import (
     Dryden,
     TurbulenceState,
@@ -82,16 +82,6 @@ class WindTable(Table):
     gusts: tuple[GustTable, ...] = ()
 
 
-PI = 3.141592653589793
-
-
-class Wind(NamedTuple):
-    """Steady velocity [m/s, world axes], and turbulence."""
-
-    velocity: Vec3
-    turbulence: Dryden | Absent
-
-
 class Gust(NamedTuple):
     """One gust: peak [m/s, world axes], start [s], 1/(rise time) [1/s], and how long it holds [s] (it may be inf)."""
 
@@ -107,15 +97,6 @@ def gust_velocity(g: Gust, t: Number) -> Vec3:
     since = (t - g.start) * g.per_rise
     rising, falling = clip(since, 0.0, 1.0), clip(since - 1.0 - g.hold * g.per_rise, 0.0, 1.0)
     return g.velocity * (0.5 * (cos(PI * falling) - cos(PI * rising)))
-
-
-@law
-def wind_step(
-    wind: Wind, memory: TurbulenceState | Absent, gust: Vec3, noise: WindNoise | Absent
-) -> tuple[Vec3, TurbulenceState | Absent]:
-    """(Velocity of the air now [m/s, world axes], the turbulence one step later); `gust`: the gusts' velocity now."""
-    air = wind.velocity + gust + turbulence_velocity(wind.turbulence, memory)
-    return air, turbulence_step(wind.turbulence, memory, noise)
 
 
 TINY = 1e-200  # m²/s², lost in the square of any speed; keeps the derivative of its root finite
@@ -148,8 +129,7 @@ def air_loads(drag: AirDrag, frame: PartsLayout, s: State, air: Vec3) -> PartLoa
     R = rotation_from_quaternion(s.attitude)
     v, turn = apply_transposed(R, s.velocity - air), -cross(frame.quadrotors, s.rates)
     payload = apply(R, quadratic_drag(drag.payload, v + cross(s.rates, frame.payload)))
-    around = Vec3(add_to_each(turn.x, v.x), add_to_each(turn.y, v.y), add_to_each(turn.z, v.z))
-    each = quadratic_drag(drag.quadrotors, around)
+    each = quadratic_drag(drag.quadrotors, translated(v, turn))
     moments = Vec3(zero_like(each.x), zero_like(each.y), zero_like(each.z))
     return PartLoads(PartLoad(payload, ZERO), PartLoad(Vec3(dot(each, R.x), dot(each, R.y), dot(each, R.z)), moments))
 
@@ -164,9 +144,10 @@ def air_drag_from(vehicle: Vehicle, density: float) -> AirDrag:
 
 
 class WindModel(NamedTuple):
-    """The wind, and the drag of the parts."""
+    """Steady velocity [m/s, world axes], turbulence, and the drag of the parts."""
 
-    wind: Wind
+    velocity: Vec3
+    turbulence: Dryden | Absent
     drag: AirDrag
 
 
@@ -178,9 +159,18 @@ class WindOutput(NamedTuple):
     memory: TurbulenceState | Absent
 
 
-@choice
+@law
+def wind_step(
+    wind: WindModel, memory: TurbulenceState | Absent, gust: Vec3, noise: WindNoise | Absent
+) -> tuple[Vec3, TurbulenceState | Absent]:
+    """(Velocity of the air now [m/s, world axes], the turbulence one step later); `gust`: the gusts' velocity now."""
+    air = wind.velocity + gust + turbulence_velocity(wind.turbulence, memory)
+    return air, turbulence_step(wind.turbulence, memory, noise)
+
+
+@law(absent=WindOutput(Absent(), Absent(), Absent()))
 def wind_loads(
-    kind: WindModel | Absent,
+    wind: WindModel,
     memory: TurbulenceState | Absent,
     frame: PartsLayout,
     state: State,
@@ -188,31 +178,8 @@ def wind_loads(
     noise: WindNoise | Absent,
 ) -> WindOutput:
     """`WindOutput` over a step that starts in `state`; `gust`: velocity of all gusts together [m/s, world axes]."""
-
-
-@wind_loads.register(Absent)
-def _no_wind(
-    kind: Absent,
-    memory: TurbulenceState | Absent,
-    frame: PartsLayout,
-    state: State,
-    gust: Vec3,
-    noise: WindNoise | Absent,
-) -> WindOutput:
-    return WindOutput(kind, kind, memory)
-
-
-@wind_loads.register(WindModel)
-def _wind(
-    kind: WindModel,
-    memory: TurbulenceState | Absent,
-    frame: PartsLayout,
-    state: State,
-    gust: Vec3,
-    noise: WindNoise | Absent,
-) -> WindOutput:
-    velocity, after = wind_step(kind.wind, memory, gust, noise)
-    return WindOutput(velocity, air_loads(kind.drag, frame, state, velocity), after)
+    velocity, after = wind_step(wind, memory, gust, noise)
+    return WindOutput(velocity, air_loads(wind.drag, frame, state, velocity), after)
 
 
 LEAST_AIRSPEED = 0.5  # m/s, at which turbulence passes in still air
@@ -231,15 +198,13 @@ def start_wind(
         if airspeed is None:
             airspeed = maximum(distance(w.velocity, ZERO), LEAST_AIRSPEED)
         turbulence = dryden(w.turbulence, w.height, airspeed, w.velocity, step)
-    wind = Wind(vec3(w.velocity), turbulence)
-    return WindModel(wind, air_drag_from(vehicle, w.density)), start_turbulence(
-        turbulence, chance.standard_normal(5).tolist()
-    )
+    eddies = start_turbulence(turbulence, chance.standard_normal(5).tolist())
+    return WindModel(vec3(w.velocity), turbulence, air_drag_from(vehicle, w.density)), eddies
 
 
 def wind_noise_of(model: WindModel | Absent) -> WindNoise | Absent:
     """The layout of the wind's standard normals."""
-    still = isinstance(model, Absent) or isinstance(model.wind.turbulence, Absent)
+    still = isinstance(model, Absent) or isinstance(model.turbulence, Absent)
     return Absent() if still else NO_NOISE
 
 

@@ -53,7 +53,7 @@ def _wrench_given(vehicle: Vehicle, weights: tuple[tuple[float, ...], ...]) -> A
 
 
 def _strike_checks(vehicle: Vehicle) -> Iterator[CheckResult]:
-    hubs = (vehicle.lever_arms[:, None] + np.array(vehicle.rotor_hubs)).reshape(-1, 3)
+    hubs = vehicle.hubs
     radii = np.repeat([q.rotor_radius for q in vehicle.quadrotors], 4)
     apart = np.linalg.norm(hubs[:, None, :2] - hubs[None, :, :2], axis=2)
     level = np.abs(hubs[:, None, 2] - hubs[None, :, 2]) < ABOVE

@@ -13,7 +13,7 @@ from tandemlift.core.caching import cached
 from tandemlift.core.keys import Bandwidth, Delay, PerAxis, Positive, Scale, Table, is_number, key, must
 from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number, PerRotor, number
-from tandemlift.core.vector import Absent, Vec3, dot, each
+from tandemlift.core.vector import Absent, Vec3, dot, set_of, vec3
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotor_faults import RotorFaults, efficiency_at
@@ -177,9 +177,7 @@ def achieved_fraction(effect: Mixer, scale: Wrench, wanted: Wrench, thrusts: Per
 
 def mixer_from(rows: NDArray[Any]) -> Mixer:
     """A 4 × 4N matrix as a Mixer."""
-    cls = each(rows.shape[1])
-    thrust, roll, pitch, yaw = (cls(*map(number, row)) for row in rows)
-    return Mixer(thrust, roll, pitch, yaw)
+    return Mixer(*[set_of([number(x) for x in row]) for row in rows])
 
 
 def weights_of(effect: NDArray[np.float64], priorities: ArrayLike) -> NDArray[np.float64]:
@@ -199,8 +197,17 @@ def weighted_rows(effect: NDArray[np.float64], weights: NDArray[np.float64]) -> 
 
 def wrench_scale(effect: NDArray[np.float64]) -> Wrench:
     """1 / row rms of the effect B (4 × n): makes the four components of a wrench comparable (`achieved_fraction`)."""
-    thrust, roll, pitch, yaw = (number(w) for w in weights_of(effect, np.ones(4)))
-    return Wrench(thrust, Vec3(roll, pitch, yaw))
+    return _as_wrench(weights_of(effect, np.ones(4)))
+
+
+def _as_wrench(four: NDArray[np.float64]) -> Wrench:
+    thrust, *moment = four
+    return Wrench(number(thrust), vec3(moment))
+
+
+def thrust_limits(vehicle: Vehicle) -> PerRotor:
+    """The largest thrust of every rotor of a vehicle [N], a set."""
+    return set_of([q.thrust_limit for q in vehicle.quadrotors for _ in range(4)])
 
 
 @cached
@@ -217,8 +224,7 @@ def _inverse(vehicle: Vehicle, weights: tuple[tuple[float, ...], ...]) -> Mixer:
 @cached
 def _weighted(vehicle: Vehicle, priorities: tuple[float, ...]) -> tuple[Mixer, Wrench]:
     weights = weights_of(vehicle.effect, priorities)
-    thrust, roll, pitch, yaw = map(number, weights)
-    return mixer_from(weighted_rows(vehicle.effect, weights)), Wrench(thrust, Vec3(roll, pitch, yaw))
+    return mixer_from(weighted_rows(vehicle.effect, weights)), _as_wrench(weights)
 
 
 def start_allocation(
@@ -233,7 +239,6 @@ def start_allocation(
     if table.method == "pseudo-inverse":
         return inverse, Absent()
     rows, weights = _weighted(vehicle, table.priorities)
-    rotors = each(vehicle.rotor_count)
-    limits = rotors(*[q.thrust_limit for q in vehicle.quadrotors for _ in range(4)])
-    none = rotors(*(0.0,) * vehicle.rotor_count)
-    return ConstrainedAllocation(inverse, rows, weights, limits, known), AllocationState(none, none)
+    none = set_of([0.0] * vehicle.rotor_count)
+    allocation = ConstrainedAllocation(inverse, rows, weights, thrust_limits(vehicle), known)
+    return allocation, AllocationState(none, none)

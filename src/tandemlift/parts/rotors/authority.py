@@ -1,4 +1,4 @@
-"""Checks of the rotors' thrust, tilt and moments about each axis against a mission's demand.
+"""Checks of the rotors' lift, thrust, tilt and moments about each axis against a mission's demand.
 
 Moments are those of the allocation's pseudo-inverse in hover. `lift_checks` rejects missions whose rotors cannot lift
 the vehicle.
@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
-from tandemlift.core.errors import CLOSE, FAILS, CheckResult, judged
+from tandemlift.core.errors import CLOSE, FAILS, CheckResult, judged, refused, warned
 from tandemlift.core.types import Array
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.hover import HoverFacts
@@ -128,3 +128,43 @@ def push_checks(hover: HoverFacts) -> Iterator[CheckResult]:
         )
         result = judged("push", PUSH, limit, "N", text, subject=subject)
         yield result._replace(verdict=CLOSE) if result.verdict == FAILS else result
+
+
+def lift_checks(hover: HoverFacts) -> Iterator[CheckResult]:
+    """Check for real rotors that cannot lift the vehicle, and for ideal ones with a thrust of their own."""
+    scale, stronger = hover.plant.mass_scale, hover.plant.thrust_scale
+    if hover.actuators.model != "rotors" and stronger != 1.0:
+        yield refused(f'plant.thrust_scale = {stronger:g}: must be 1, or actuators.model "rotors", not "ideal"')
+    if hover.actuators.model == "rotors" and hover.weight > hover.lift:
+        yield refused(
+            f'actuators.model = "rotors": the vehicle weighs {hover.weight:.4g} N'
+            f"{f' (plant.mass_scale = {scale:g})' if scale != 1.0 else ''} "
+            f'and its rotors lift {hover.lift:.4g} N at most; it must be lighter, or the model "ideal"'
+        )
+
+
+def ideal_lift_warnings(hover: HoverFacts) -> Iterator[CheckResult]:
+    """Check for ideal rotors that give more thrust than real ones could."""
+    if hover.weight > hover.lift:
+        yield warned(
+            f"the vehicle weighs {hover.weight:.4g} N and its rotors lift {hover.lift:.4g} N; it flies only because "
+            "actuators.model is ideal"
+        )
+
+
+def hover_warnings(hover: HoverFacts) -> Iterator[CheckResult]:
+    """Check for rotors that cannot give their thrusts in hover."""
+    for i, (most, own) in enumerate(zip(hover.most.tolist(), hover.thrusts, strict=True), 1):
+        worst = max(own, key=lambda f: max(-f, f - most))
+        if not 0.0 <= worst <= most:
+            yield warned(f"in hover a rotor of quadrotor {i} would give {worst:.4g} N and can give 0 to {most:.4g} N")
+
+
+def payload_warnings(hover: HoverFacts) -> Iterator[CheckResult]:
+    """Check for a true mass so small that the payload would have none."""
+    scale = hover.plant.mass_scale
+    if hover.payload_mass <= 0.0:
+        yield warned(
+            f"plant.mass_scale = {scale}: the joint forces assign all of the difference to the payload, "
+            f"which would weigh {hover.payload_mass:.4g} kg"
+        )

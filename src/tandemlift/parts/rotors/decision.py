@@ -80,6 +80,7 @@ def decision_step(
 
     `active` is 0 while the decision must not change, else 1.
     """
+    # a head start, so that noise does not change a decision between two rotors that explain r alike
     held = evidence + v.lost * PRIOR
     best = greatest(held)
     clear = where(best - greatest(but(held, best)) > k.isolation_margin, active, 0.0)

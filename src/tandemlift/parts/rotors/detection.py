@@ -25,7 +25,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from tandemlift.core.algebra import maximum, minimum, where
+from tandemlift.core.algebra import chosen, maximum, minimum, where
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import GRAVITY, Number, NumberSet, PerRotor
 from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, each, total
@@ -154,12 +154,6 @@ def variance(scatter: Number, observed: Number) -> Number:
     return scatter + maximum(observed, 0.0)
 
 
-@elementwise
-def kept_or(value: Number, other: Number, active: Number) -> Number:
-    """A value in flight, another on the ground."""
-    return where(active > 0.0, value, other)
-
-
 @law
 def flies_free(k: RotorLossDetection, r: NumberSet, active: Number) -> Number:
     """1 if the vehicle flies and no floor supports it, else 0; r: the residual."""
@@ -215,7 +209,7 @@ def detection_step(
     left = rest - m.mean.value
     mean = low_pass_step(k.bias_filter, m.mean, rest)
     scatter = low_pass_step(k.scatter_filter, m.scatter, minimum(left * left, k.bound))
-    still = kept_or(scatter.value, k.bound * START_SCATTER, free)
+    still = chosen(free, scatter.value, k.bound * START_SCATTER)
     return m._replace(mean=mean, scatter=LowPassState(still, scatter.rate * free), verdict=verdict)
 
 

@@ -10,8 +10,11 @@ from typing import NamedTuple
 from tandemlift.core.algebra import maximum
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import Number, PerRotor
-from tandemlift.core.vector import Vec3
+from tandemlift.core.vector import Absent, Vec3, set_of, spread
+from tandemlift.parts.mechanics.loads import add_to_each
 from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import world_z_in_body
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 MIN_HEIGHT = 0.5  # rotor radii: the theory of ground effect holds no nearer to the floor
 
@@ -32,16 +35,22 @@ def thrust_ratio(height: Number, quarter_radius: Number) -> Number:
     return 1.0 / (1.0 - ratio * ratio)
 
 
-@elementwise
-def height_above(offset: Number, z: Number) -> Number:
-    """The height [m] of a rotor that is `offset` above the centre of mass, which is z above the floor."""
-    return offset + z
-
-
 @law(absent=1.0)
 def ground_effect_ratio(surface: GroundEffect, state: State) -> PerRotor:
     """Thrust near the floor over thrust in free air."""
-    q, r = state.attitude, surface.rotors
-    up = Vec3(2.0 * (q.x * q.z - q.w * q.y), 2.0 * (q.y * q.z + q.w * q.x), 1.0 - 2.0 * (q.x * q.x + q.y * q.y))
+    r, up = surface.rotors, world_z_in_body(state.attitude)
     offset = r.x * up.x + r.y * up.y + r.z * up.z
-    return thrust_ratio(height_above(offset, state.position.z - surface.floor), surface.quarter_radius)
+    return thrust_ratio(add_to_each(offset, state.position.z - surface.floor), surface.quarter_radius)
+
+
+def ground_effect_from(vehicle: Vehicle, floor: Number | None) -> GroundEffect | Absent:
+    """Ground effect over a floor at z = `floor` [m], if there is one."""
+    if floor is None:
+        return Absent()
+    hubs = [
+        (d[0] + x, d[1] + y, d[2])
+        for d, q in zip(vehicle.lever_arms, vehicle.quadrotors, strict=True)
+        for x, y in q.rotors
+    ]
+    quarter = [q.rotor_radius / 4.0 for q in vehicle.quadrotors for _ in range(4)]
+    return GroundEffect(spread(hubs), set_of(quarter), floor)

@@ -106,7 +106,7 @@ class HoverFacts(NamedTuple):
         return float(self._room((self.vehicle.allocation(self.allocation.weights) @ counter)[:, None])[0])
 
     def _room(self, column: Array) -> Array:
-        """How much of some thrusts per unit (R × n) [N] the rotors can add in hover (n)."""
+        """The multiples of some thrusts (R × n) [N] that the rotors can add in hover (n)."""
         most = np.repeat(self.most, 4)
         hover = self.thrusts.ravel()
         up, down = np.maximum(most - hover, 0.0)[:, None], np.maximum(hover, 0.0)[:, None]

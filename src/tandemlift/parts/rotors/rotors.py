@@ -12,11 +12,11 @@ from tandemlift.core.caching import cached
 from tandemlift.core.keys import Delay, Table, key
 from tandemlift.core.law import law
 from tandemlift.core.types import Number, PerRotor
-from tandemlift.core.vector import Absent, each, spread
+from tandemlift.core.vector import Absent, each
 from tandemlift.parts.mechanics.rigid_body import State, Wrench
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.rotors.allocation import wrench_scale
-from tandemlift.parts.rotors.ground_effect import GroundEffect, ground_effect_ratio
+from tandemlift.parts.rotors.allocation import thrust_limits, wrench_scale
+from tandemlift.parts.rotors.ground_effect import GroundEffect, ground_effect_from, ground_effect_ratio
 from tandemlift.parts.rotors.rotor_faults import FaultTable, RotorFaults, efficiency_at, real_faults
 from tandemlift.parts.rotors.rotor_lag import Lag, lag, lag_step
 
@@ -77,6 +77,7 @@ def rotors_step(
     r: Rotors, memory: RotorState, command: PerRotor, state: State, t: Number
 ) -> tuple[PerRotor, RotorState]:
     """(thrust of each rotor [N] over the step from time t [s], the new memory) under a command [N]."""
+    # limits hold for the command that arrives: a rotor clips what it is told, when it is told
     arrived = memory.arriving * r.delayed + command * (1.0 - r.delayed)
     commanded_speed = sqrt(clip(arrived, 0.0, r.max_thrust) * r.per_constant)
     mean_of_square, speed = lag_step(r.up, r.down, memory.speed, commanded_speed)
@@ -91,40 +92,31 @@ def hover_thrusts(vehicle: Vehicle, weights: tuple[tuple[float, ...], ...]) -> P
     return each(vehicle.rotor_count)(*thrusts.tolist())
 
 
-def ground_effect_from(vehicle: Vehicle, floor: Number) -> GroundEffect:
-    """Ground effect over a floor at z = `floor` [m]."""
-    places = [
-        (d[0] + x, d[1] + y, d[2])
-        for d, q in zip(vehicle.lever_arms, vehicle.quadrotors, strict=True)
-        for x, y in q.rotors
-    ]
-    quarter = [q.rotor_radius / 4.0 for q in vehicle.quadrotors for _ in range(4)]
-    return GroundEffect(spread(places), each(len(quarter))(*quarter), floor)
-
-
+@cached
 def rotors_from(
     vehicle: Vehicle,
     step: float,
-    *,
     delayed: bool,
-    faults: RotorFaults | Absent,
-    surface: GroundEffect | Absent,
-    wrench_scale: Wrench,
-    scale: Number = 1.0,
+    faults: tuple[FaultTable, ...],
+    floor: Number | None,
+    scale: Number,
 ) -> Rotors:
-    """The real rotors of a vehicle, for steps of `step` [s]; `scale`: real over modelled thrust."""
+    """The real rotors of a vehicle, for steps of `step` [s].
+
+    Over a floor at z = `floor` [m], they have ground effect. `scale`: real over modelled thrust.
+    """
     each_rotor = [q for q in vehicle.quadrotors for _ in range(4)]
     cls = each(len(each_rotor))
     return Rotors(
-        max_thrust=cls(*[q.thrust_limit for q in each_rotor]),
+        max_thrust=thrust_limits(vehicle),
         constant=cls(*[q.thrust_constant * scale for q in each_rotor]),
         per_constant=cls(*[1.0 / q.thrust_constant for q in each_rotor]),
         up=lag([q.lag_up for q in each_rotor], step),
         down=lag([q.lag_down for q in each_rotor], step),
-        faults=faults,
-        surface=surface,
+        faults=real_faults(faults, vehicle),
+        surface=ground_effect_from(vehicle, floor),
         delayed=float(delayed),
-        wrench_scale=wrench_scale,
+        wrench_scale=wrench_scale(vehicle.effect),
     )
 
 
@@ -154,29 +146,8 @@ def start_rotors(
     hover = hover_thrusts(vehicle, weights)
     if table.model == "ideal":
         return Absent(), Absent(), hover
-    rotors = _real_rotors(vehicle, step, delayed, faults, floor, scale)
+    rotors = rotors_from(vehicle, step, delayed, faults, floor, scale)
     return rotors, *_start(hover, rotors, table.start == "hover", scale)
-
-
-@cached
-def _real_rotors(
-    vehicle: Vehicle,
-    step: float,
-    delayed: bool,
-    faults: tuple[FaultTable, ...],
-    floor: Number | None,
-    scale: Number,
-) -> Rotors:
-    """The rotors of a vehicle with faults and, over a floor at z = `floor` [m], with ground effect."""
-    return rotors_from(
-        vehicle,
-        step,
-        delayed=delayed,
-        faults=real_faults(faults, vehicle),
-        surface=Absent() if floor is None else ground_effect_from(vehicle, floor),
-        wrench_scale=wrench_scale(vehicle.effect),
-        scale=scale,
-    )
 
 
 @cached

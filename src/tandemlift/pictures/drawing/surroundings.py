@@ -9,16 +9,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.collections import LineCollection
 
-from tandemlift.core.types import GRAVITY, Array
+from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.parts.contact.corridor import WallTable
-from tandemlift.parts.contact.feet import floor, standing_height
-from tandemlift.parts.contact.ground_table import GroundTable
-from tandemlift.parts.contact.hull import hull
+from tandemlift.parts.contact.standing import GroundTable, floor_under
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.drawing.scene import NEAR, Scene3D, on_paper
 from tandemlift.pictures.drawing.style import EDGE, GLASS
-from tandemlift.pictures.drawing.vehicle import body_to_world, true_mass
+from tandemlift.pictures.drawing.vehicle import body_to_world
 
 BEYOND = 0.15  # of the longest side of the displayed points: range around them in which walls are drawn
 TOUCHING = 1e-6  # m: a wall on the box's edge is in it
@@ -107,11 +105,9 @@ def floor_height(flight: Flight) -> float | None:
     ground = GroundTable.model_validate(flight.mission.get("ground", {}))
     if ground.model == "none" or ground.height is not None:
         return ground.height if ground.model != "none" else None
-    vehicle, mission, mass = Vehicle.from_mission(flight.mission), flight.mission, true_mass(flight)
-    step, friction = mission["mission"]["step"], ground.friction
-    shapes = hull(**vehicle.hull_shapes, mass=mass, inertia=vehicle.inertia, step=step)
-    at_zero = floor(vehicle.soles, mass, vehicle.inertia, step, friction=friction, sinkage=ground.sinkage, hull=shapes)
-    return mission["initial"]["position"][2] - standing_height(at_zero, mass * GRAVITY)
+    vehicle, mission = Vehicle.from_mission(flight.mission), flight.mission
+    scale, start = mission.get("plant", {}).get("mass_scale", 1.0), mission["initial"]["position"][2]
+    return floor_under(vehicle, ground, scale, mission["mission"]["step"], start).height
 
 
 def clearance(flight: Flight, height: float) -> Array:
