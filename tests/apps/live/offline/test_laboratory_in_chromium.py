@@ -3,7 +3,7 @@
 import time
 
 import numpy as np
-from chromium import opened, panel, pushed, resized, save, seconds_flown
+from chromium import aloft, opened, panel, pushed, resized, save, seconds_flown
 from patience import until
 
 import tandemlift as tl
@@ -26,9 +26,7 @@ def shown(page):
 
 
 def test_a_drag_zooms_all_plots_which_show_values_at_one_moment_and_come_back(browser, address):
-    page = opened(browser, address)
-    resized(page, WIDE)
-    until(lambda: seconds_flown(page) > 4.0, "a flight")
+    page = aloft(browser, address, WIDE, 4.0)
     x, y, width = area(page)
     page.mouse.move(x + 0.95 * width, y)
     page.mouse.down()
@@ -89,9 +87,7 @@ def test_fingers_spread_time_and_a_tapped_mark_is_the_moment(browser, address):
 
 
 def test_who_tries_again_pushes_anew_and_saves_the_new_flight(browser, address, tmp_path):
-    page = opened(browser, address)
-    resized(page, WIDE)
-    until(lambda: seconds_flown(page) > 6.0, "a flight at its height")
+    page = aloft(browser, address, WIDE)
     pushed(page)
     entry = panel(page, "person.stiffness").locator("input[type=number]")
     first = entry.input_value()

@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner
 from own_flight import INDEX, OwnFlight
 from repository import ROOT
-from sessions import GUIDED
+from sessions import CORRIDOR
 
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli
@@ -292,8 +292,7 @@ def test_every_setting_and_every_rotor_of_a_page_is_a_number_that_its_module_tak
 
 
 def test_a_flight_through_a_corridor_has_the_score_of_its_saved_file(tmp_path):
-    corridor = {"corridor.centreline": [[-1.0, 0.0], [0.4, 0.0], [1.0, 0.3]], "corridor.width": 3.4}
-    flight = OwnFlight(packed_mission(page_mission("hover", GUIDED | corridor), "a corridor"))
+    flight = OwnFlight(packed_mission(page_mission("hover", CORRIDOR), "a low corridor"))
     flight.fly(6.0)
     assert "score" not in flight.status()
     flight.saved(tmp_path / "early")
