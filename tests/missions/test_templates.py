@@ -47,7 +47,7 @@ def given_by(make):
 def test_a_template_gives_what_load_mission_gives_and_refuses_what_it_refuses(name):
     chance = random.Random(name)
     flown = refused = 0
-    for _ in range(12):
+    for _ in range(6):
         common = chance.choice(({}, FEEL, LATER, drawn(chance, 2)))
         template = functools.cache(functools.partial(MissionTemplate.read, name, common, quiet=True))
         for most in (1, 1, 1, 2, 3, 6):

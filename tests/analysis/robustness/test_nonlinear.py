@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 import sys
 from functools import cache
-from typing import NamedTuple
 
 import numpy as np
 import pytest
+from listings import LISTINGS
 
 from tandemlift.analysis.robustness import cut_loop, nonlinear
 from tandemlift.analysis.robustness.nonlinear import nonlinear_tier
@@ -27,11 +27,7 @@ from tandemlift.analysis.robustness.sector_bound import (
     without_resting_modes,
 )
 from tandemlift.core.errors import InputError
-from tandemlift.core.vector import ZERO
 from tandemlift.missions import load_mission
-from tandemlift.parts.controllers import CONTROLLERS, control, register
-from tandemlift.parts.controllers.interface import Command, ControllerTable, NoMemory
-from tandemlift.parts.mechanics.rigid_body import Wrench
 
 pytest.importorskip("cvxpy")
 scipy_signal = pytest.importorskip("scipy.signal")
@@ -57,30 +53,6 @@ def random_plant(rng, states=4, inputs=1, outputs=1):
     A = rng.normal(size=(states, states))
     A *= rng.uniform(0.5, 0.95) / np.abs(np.linalg.eigvals(A)).max()
     return Plant(A, rng.normal(size=(states, inputs)), rng.normal(size=(outputs, states)), np.zeros((outputs, inputs)))
-
-
-class ByHand(NamedTuple):
-    """Gains of a controller that Python calls."""
-
-
-@pytest.fixture
-def plain_python():
-    """A mission whose controller is plain Python."""
-
-    class Settings(ControllerTable):
-        name: str = "by-hand"
-
-    @control.register(ByHand, compiled=False)
-    def hover(k, memory, measured, reference):
-        return Command(Wrench(34.335, ZERO), ZERO), memory
-
-    @register("by-hand", Settings)
-    def start(settings, vehicle, step):
-        return ByHand(), NoMemory()
-
-    yield load_mission("iris", {"controller": {"name": "by-hand"}})
-    CONTROLLERS.pop("by-hand")
-    control.interpreted.discard(ByHand)
 
 
 @cache
@@ -236,8 +208,8 @@ def test_a_mission_without_limits_and_switching_keeps_the_boxes():
     assert "neither thrust limits nor a switching function" in tier.reason
 
 
-def test_a_plain_python_controller_has_a_reason_and_no_claims(plain_python):
-    tier = nonlinear_tier(plain_python)
+def test_a_plain_python_controller_has_a_reason_and_no_claims():
+    tier = nonlinear_tier(load_mission("iris", controller=str(LISTINGS / "my_pd_plain.py")))
     assert tier.claims == ()
     assert tier.reason.count("is plain Python") == 2
 
