@@ -66,11 +66,10 @@ def test_the_commands_of_the_readme_run(tmp_path, monkeypatch):
     # which go on until they are stopped, take minutes, or are run by the tutorials and by tests of their own
     elsewhere = {"live", "ros", "mavlink", "tune", "study", "feel", "paper", "linearize", "render"}
     elsewhere |= {"certify", "grade", "benchmark"}
+    quicker = {"run": ["--no-figures", "--set", "mission.duration=20"], "shadow": ["--no-figures"]}
     for _, *arguments in commands:
         if arguments[0] not in elsewhere:
-            result = CliRunner().invoke(
-                cli, [*arguments, *(["--no-figures"] if arguments[0] in ("run", "shadow") else [])]
-            )
+            result = CliRunner().invoke(cli, [*arguments, *quicker.get(arguments[0], [])])
             assert result.exit_code == 0, result.output
 
 
