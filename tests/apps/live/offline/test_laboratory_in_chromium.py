@@ -47,8 +47,8 @@ def test_a_drag_zooms_all_plots_which_show_values_at_one_moment_and_come_back(br
     assert len(set(right)) == 1
     assert right[0] - left[0] < 1.6
     page.mouse.dblclick(x + 0.5 * width, y)
-    page.mouse.move(x + 0.5 * width, y + 1)
-    until(lambda: not shown(page), "the last 20 s, which had not begun at their middle")
+    page.mouse.move(x + 0.02 * width, y + 1)
+    until(lambda: not shown(page), "the last 20 s, in whose first the flight had not begun")
     assert page.wrong == []
     page.context.close()
 
