@@ -26,7 +26,7 @@ class PilotInC:
         files = written(code_texts(mission, single), folder)
         source = next(f for f in files if f.name.endswith("_pilot.c"))
         library = folder / "pilot.so"
-        subprocess.run([compiler, *STRICT, "-O2", "-shared", "-fPIC", source, "-o", library, "-lm"], check=True)
+        subprocess.run([compiler, *STRICT, "-O1", "-shared", "-fPIC", source, "-o", library, "-lm"], check=True)
         self.real = np.float32 if single else np.float64
         name, self.library = source.name.removesuffix("_pilot.c"), ctypes.CDLL(str(library))
         self.numbers = np.zeros(leaves(pilot_at_start(mission)), self.real)
@@ -54,7 +54,7 @@ def build(source, *options, compiler="gcc"):
     """Compile a self-test with what it tests."""
     folder, program = source.parent, source.with_suffix("")
     part = source.name.removesuffix("_selftest.c") + ".c"
-    subprocess.run([compiler, *STRICT, *(options or ("-O2",)), source, folder / part, "-o", program, "-lm"], check=True)
+    subprocess.run([compiler, *STRICT, *(options or ("-O1",)), source, folder / part, "-o", program, "-lm"], check=True)
     return program
 
 

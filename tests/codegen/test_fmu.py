@@ -27,7 +27,7 @@ def fmu(tmp_path_factory):
     need("gcc")
     folder = tmp_path_factory.mktemp("fmus")
     made = pytest.MonkeyPatch()
-    made.setattr(fmu_binaries, "FLAGS", fmu_binaries.FLAGS.replace("-O2", "-O1"))  # the bits are those of any level
+    made.setattr(fmu_binaries, "FLAGS", fmu_binaries.FLAGS.replace("-O2", "-O0"))  # the bits are those of any level
 
     @cache
     def both(name, part):

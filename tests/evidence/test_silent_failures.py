@@ -59,7 +59,7 @@ def silent_failure(base, changes):
 
 
 @pytest.mark.parametrize("base", BASES)
-@settings(derandomize=True, deadline=None, max_examples=40, suppress_health_check=list(HealthCheck))
+@settings(derandomize=True, deadline=None, max_examples=25, suppress_health_check=list(HealthCheck))
 @given(drawn=CHANGED)
 def test_no_mission_that_loads_without_a_word_ends_badly_without_a_finding(base, drawn):
     silent = silent_failure(base, {name: written(value) for name, value in drawn.items()})

@@ -137,11 +137,6 @@ def test_a_lift_that_the_landing_cuts_short_is_warned_of():
         load_mission("paper", {"phases.land_start": 5})
 
 
-def test_a_vehicle_that_its_rotors_cannot_lift_is_warned_of():
-    with pytest.warns(tl.FlightWarning, match=r"weighs 59\.84 N and its rotors lift 56\.53 N"):
-        load_mission("paper", {"vehicle.payload.mass": 3.1})
-
-
 @pytest.mark.parametrize(("time", "warned"), [(60.0, True), (1e6, False)])
 def test_only_rotors_that_fail_within_the_flight_count_against_what_they_lift(time, warned):
     """A flight that was flown by hand is saved with a fault of every rotor that never comes."""

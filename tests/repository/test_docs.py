@@ -17,7 +17,8 @@ from tandemlift.flight.channels import OTHER, channel_of
 DOCUMENTS = sorted(ROOT.glob("*.md"))  # the links of docs/ are checked when the site is built
 PAGES = sorted((ROOT / "docs" / "how-to").glob("*.md"))
 PAGES += [ROOT / "docs" / "reference" / f"{name}.md" for name in ("checks", "flights", "linearize", "studies")]
-ELSEWHERE = ("own-pilot-in-ros", "scaling")  # these need other programs, and have tests of their own
+# these need other programs or a minute, and have tests of their own
+ELSEWHERE = ("own-pilot-in-ros", "scaling", "certify", "excite-a-vehicle")
 CODE = [page for page in PAGES if page.stem not in ELSEWHERE and "\n```python\n" in page.read_text("utf-8")]
 CODE.append(ROOT / "README.md")  # reference/controllers.md has tests of its own; the site's build runs the tutorials
 FILE = re.compile(r"^<!-- (\S+\.\w+) -->\n```\w+\n(.*?)^```", flags=re.M | re.S)
@@ -65,11 +66,10 @@ def test_the_commands_of_the_readme_run(tmp_path, monkeypatch):
     # which go on until they are stopped, take minutes, or are run by the tutorials and by tests of their own
     elsewhere = {"live", "ros", "mavlink", "tune", "study", "feel", "paper", "linearize", "render"}
     elsewhere |= {"certify", "grade", "benchmark"}
+    quicker = {"run": ["--no-figures", "--set", "mission.duration=20"], "shadow": ["--no-figures"]}
     for _, *arguments in commands:
         if arguments[0] not in elsewhere:
-            result = CliRunner().invoke(
-                cli, [*arguments, *(["--no-figures"] if arguments[0] in ("run", "shadow") else [])]
-            )
+            result = CliRunner().invoke(cli, [*arguments, *quicker.get(arguments[0], [])])
             assert result.exit_code == 0, result.output
 
 

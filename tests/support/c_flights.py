@@ -63,7 +63,7 @@ class CFlight:
         source = self.folder / f"{self.prefix}_flight.c"
         sources = [str(source), str(harness)]
         subprocess.run(
-            [compiler, *STRICT, *(options or ("-O2",)), "-shared", "-fPIC", *sources, "-o", library, "-lm"], check=True
+            [compiler, *STRICT, *(options or ("-O1",)), "-shared", "-fPIC", *sources, "-o", library, "-lm"], check=True
         )
         self.library = ctypes.CDLL(str(library))
         self.library.fly.restype = ctypes.c_int64

@@ -218,6 +218,14 @@ def seconds_flown(page):
     return float(page.inner_text("#meters .time dd").removesuffix("s").replace("–", "-1"))
 
 
+def aloft(browser, address, size, seconds=6.0, **options):
+    """A page of a size whose flight is at its height; before it is small: software draws large pictures slowly."""
+    page = opened(browser, address, **options)
+    until(lambda: seconds_flown(page) > seconds, "a flight at its height")
+    resized(page, size)
+    return page
+
+
 def save(page, folder):
     """Save a page's own flight by its dialog, unpacked into a folder; the name of the file."""
     page.click("#dock span:text-is('Save')")

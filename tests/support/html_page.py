@@ -13,13 +13,14 @@ class Page(HTMLParser):
 
     def __init__(self, text):
         super().__init__()
-        self.elements, self.rows, self.open, self.amiss = [], [], [], []
+        self.elements, self.texts, self.rows, self.open, self.amiss = [], [], [], [], []
         self.text = text
         self.feed(text)
         self.close()
 
     def handle_starttag(self, tag, attrs):
         self.elements.append((tag, dict(attrs)))
+        self.texts.append("")
         if tag == "tr":
             self.rows.append([])
         if tag in ("td", "th"):
@@ -38,6 +39,18 @@ class Page(HTMLParser):
     def handle_data(self, data):
         if {"td", "th"} & set(self.open):
             self.rows[-1][-1] += data
+        if self.open and self.open[-1] == self.elements[-1][0]:
+            self.texts[-1] += data
+
+    def of(self, tag, **attributes):
+        """Attributes and text of every element of a kind that has some attributes."""
+        every = zip(self.elements, self.texts, strict=True)
+        return [(found, text) for (name, found), text in every if name == tag and attributes.items() <= found.items()]
+
+    @property
+    def policy(self):
+        """What the page may load."""
+        return self.of("meta", **{"http-equiv": "Content-Security-Policy"})[0][0]["content"]
 
     def all(self, tag):
         """The attributes of every element of a kind."""

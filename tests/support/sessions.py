@@ -12,6 +12,11 @@ GUIDED = {
     "ground.model": "floor",
     "compliance.yaw.model": "compliant",
 }
+CORRIDOR = GUIDED | {  # one for all that fly it in a page: to compile its module takes long
+    "corridor.centreline": [[-1.0, 0.0], [0.4, 0.0], [1.0, 0.3]],
+    "corridor.width": 3.4,
+    "corridor.height": 1.2,
+}
 STIFFNESS, THRESHOLD = 6.0, 0.3  # N/m, N
 
 

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
+import re
 from functools import cache
 
 import control
 import numpy as np
 import pytest
 from listings import PLAIN
+from repository import ROOT
 
+import tandemlift as tl
 from tandemlift.analysis.certification.changed_models import linear_limit
 from tandemlift.analysis.certification.disk_margins import DiskMargin, disk_margin, disk_sizes
 from tandemlift.analysis.certification.flown import LimitTrial, flown_limit, trial_of
@@ -18,18 +21,23 @@ from tandemlift.analysis.linearization.loop_margins import single_loop
 from tandemlift.core.errors import InputError
 from tandemlift.missions import load_mission
 from tandemlift.parts.controllers.user_controller import load_controller
+from tandemlift.pictures.report.study.certificate_report import write_certificate
 
 W = np.geomspace(0.01, 100.0, 600)
 
 
 @cache
-def tier(name):
-    return linear_tier(load_mission(name))
+def certificate():
+    """The linear tier of `iris`, as the guide asks for it."""
+    (block,) = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs/how-to/certify.md").read_text("utf-8"), re.M | re.S)
+    names = {}
+    exec(compile(block, "certify.md", "exec"), names)
+    return names["certificate"]
 
 
-def value(quantity, subject="", name="iris"):
-    (found,) = [c for c in tier(name).claims if (c.quantity, c.subject) == (quantity, subject)]
-    return found.value
+def claim_of(quantity, subject=""):
+    (found,) = [c for c in certificate().tier("linear").claims if (c.quantity, c.subject) == (quantity, subject)]
+    return found
 
 
 def test_the_disk_margin_of_one_loop_is_that_of_python_control():
@@ -89,16 +97,26 @@ def test_the_frequency_of_an_oscillation_is_that_of_a_loop_through_minus_one():
     ],
 )
 def test_flights_of_iris_begin_to_oscillate_at_the_predicted_limit_and_frequency(name, quantity, subject):
-    (claim,) = [c for c in tier("iris").claims if (c.quantity, c.subject) == (quantity, subject)]
+    claim = claim_of(quantity, subject)
     flown = flown_limit(trial_of(load_mission("iris"), name), claim.limit)
     assert flown.ended == "oscillation"
     assert flown.above == pytest.approx(claim.limit, rel=0.1)
     assert flown.frequency == pytest.approx(claim.frequency, rel=0.1)
 
 
+def test_the_mission_beside_a_limit_oscillates_when_it_is_flown(tmp_path):
+    write_certificate(certificate(), tmp_path)
+    flight = tl.fly(tmp_path / "limits" / "delay-limit.toml")
+    late = flight["velocity"][flight.time > flight.time[-1] - 3.0, 2]  # the height oscillates first
+    assert late.std() > 0.01  # m/s
+    signs = late > late.mean()
+    turns = np.count_nonzero(signs[:-1] != signs[1:]) * math.pi / 3.0
+    assert turns == pytest.approx(claim_of("delay limit").frequency, rel=0.1)
+
+
 @pytest.mark.parametrize("factor", [0.9, 1.08], ids=["beyond it", "before it"])
 def test_a_search_that_begins_near_a_limit_finds_the_same(factor):
-    limit = value("least inertia", "roll")
+    limit = claim_of("least inertia", "roll").value
     near = linear_limit(load_mission("iris"), "roll inertia", growing=False, near=factor * limit)
     assert near.value == pytest.approx(limit, rel=0.01)
 
@@ -117,13 +135,15 @@ def test_flights_do_not_look_for_a_limit_on_the_other_side_of_the_nominal_value(
 
 def test_the_heaviest_vehicle_is_that_which_its_rotors_lift():
     mission = load_mission("iris")
-    assert value("largest mass") == pytest.approx(mission.hover.lift / mission.hover.weight, rel=1e-6)
+    assert claim_of("largest mass").value == pytest.approx(mission.hover.lift / mission.hover.weight, rel=1e-6)
 
 
 def test_every_margin_of_an_axis_has_a_bar_and_those_of_all_rotors_are_no_wider():
     for axis in ("z", "roll", "pitch", "yaw"):
-        assert value("disk gain margin", "all rotors") <= value("disk gain margin", axis) + 1e-6
-    bars = {c.quantity: c.bar for c in tier("iris").claims if c.subject == "roll" and "margin" in c.quantity}
+        assert claim_of("disk gain margin", "all rotors").value <= claim_of("disk gain margin", axis).value + 1e-6
+    bars = {
+        c.quantity: c.bar for c in certificate().tier("linear").claims if c.subject == "roll" and "margin" in c.quantity
+    }
     assert bars == {"gain margin": 6.0, "phase margin": 45.0, "disk gain margin": 5.5, "disk phase margin": 35.0}
 
 

@@ -1,7 +1,12 @@
 """The excitation that tells most of a vehicle: its promise against flights, its limits in two engines, bad input."""
 
+import inspect
+import re
+
 import numpy as np
 import pytest
+from click.testing import CliRunner
+from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.analysis.identification import excitation_design
@@ -24,6 +29,7 @@ from tandemlift.analysis.identification.excitation_information import (
 )
 from tandemlift.analysis.identification.identify import reference_rows
 from tandemlift.analysis.linearization.loop_margins import calm_mission
+from tandemlift.apps.cli.main import cli
 from tandemlift.missions import check, load_mission, mission_from_text, tables_of
 
 ROOM = (2.0, 1.5, 1.0)
@@ -31,8 +37,38 @@ TRUTH = {"pilot.state": "truth", "pilot.push": "truth", "estimator.identify_mass
 
 
 @pytest.fixture(scope="module")
-def design():
-    return excite("iris", 30.0, room=ROOM, push=2.0)
+def commanded(tmp_path_factory):
+    """The design of a command, its file, and what it printed."""
+    path, made = tmp_path_factory.mktemp("excited") / "excited.toml", []
+    options = ["--time", "30", "--room", "2x1.5x1", "--push", "2", "--out", str(path), "--set", "mission.seed=3"]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(tl, "excite", lambda *args, **more: made.append(excite(*args, **more)) or made[0])
+        result = CliRunner().invoke(cli, ["excite", "iris", *options], catch_exceptions=False)
+    return made[0], path, result.output
+
+
+@pytest.fixture(scope="module")
+def design(commanded):
+    return commanded[0]
+
+
+def test_the_file_is_the_design_and_the_promise_is_printed(commanded):
+    design, path, printed = commanded
+    mission = load_mission(path)
+    assert mission.mission.seed == 3
+    assert (mission.excitation.duration, mission.excitation.room) == (30.0, ROOM)
+    assert path.read_text("utf-8") == design.text()
+    for line in design.text().split("\n\n")[0].splitlines()[:12]:
+        assert line.removeprefix("# ") in printed
+
+
+def test_the_python_of_the_guide_runs(design, monkeypatch):
+    """With the design that is there, for arguments that `excite` takes."""
+    guide = (ROOT / "docs" / "how-to" / "excite-a-vehicle.md").read_text("utf-8")
+    (block,), names = re.findall(r"^```python\n(.*?)^```", guide, re.M | re.S), {}
+    monkeypatch.setattr(tl, "excite", lambda *args, **more: inspect.signature(excite).bind(*args, **more) and design)
+    exec(compile(block, "excite-a-vehicle.md", "exec"), names)
+    assert names["flight"].outcome == "landed"
 
 
 def test_the_excited_flight_keeps_its_limits_in_both_engines(design):
@@ -181,3 +217,20 @@ def test_the_shares_are_optimal_by_the_equivalence_theorem(monkeypatch):
 def test_what_cannot_be_excited_is_refused_by_name(mission, keys, how, words):
     with pytest.raises(tl.InputError, match=words):
         excite(load_mission(mission, keys), **how)
+
+
+@pytest.mark.parametrize(
+    ("args", "words"),
+    [
+        (["iris", "--room", "2 by 2"], "--room 2 by 2: must be three sizes in m"),
+        (["iris", "--room", "2x2"], "room = "),
+        (["paper"], "actuators.model"),
+        (["iris", "--out", "mine.json"], "--out mine.json: must end in .toml"),
+    ],
+)
+def test_what_the_command_cannot_do_is_refused_and_nothing_is_written(args, words, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    result = CliRunner().invoke(cli, ["excite", *args])
+    assert isinstance(result.exception, tl.InputError)
+    assert words in str(result.exception)
+    assert not list(tmp_path.iterdir())

@@ -35,14 +35,12 @@ def test_matrices_fit_their_names(paper):
     assert [v.name for v in paper.inputs[:4]] == ["push_force_x", "push_force_y", "push_force_z", "push_moment_x"]
 
 
-@pytest.mark.parametrize("mission", ["paper", "iris", "rotor-loss", "doorway"])
-def test_states_have_units(mission):
-    model = tl.linearize(tl.load_mission(mission, {"mission.duration": 0.4}), 0.3, steps=1)
-    without = {
-        v.name for v in model.states if not v.unit and not v.name.startswith(("estimator.push.sums", "detection"))
-    }
-    assert without == set()
-    assert {v.unit for v in model.outputs} <= {"m", "m/s", "rad", "rad/s", "N", "N m"}
+def test_states_have_units(paper, iris):
+    short = [tl.load_mission(name, {"mission.duration": 0.4}) for name in ("rotor-loss", "doorway")]
+    for model in (paper, iris, *(tl.linearize(mission, 0.3, steps=1) for mission in short)):
+        named = [v for v in model.states if not v.name.startswith(("estimator.push.sums", "detection"))]
+        assert [v.name for v in named if not v.unit] == []
+        assert {v.unit for v in model.outputs} <= {"m", "m/s", "rad", "rad/s", "N", "N m"}
 
 
 def test_an_output_is_the_first_sample_of_the_flight(paper):

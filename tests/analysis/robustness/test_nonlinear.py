@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 import sys
 from functools import cache
-from typing import NamedTuple
 
 import numpy as np
 import pytest
+from listings import LISTINGS
 
 from tandemlift.analysis.robustness import cut_loop, nonlinear
 from tandemlift.analysis.robustness.nonlinear import nonlinear_tier
@@ -27,11 +27,7 @@ from tandemlift.analysis.robustness.sector_bound import (
     without_resting_modes,
 )
 from tandemlift.core.errors import InputError
-from tandemlift.core.vector import ZERO
 from tandemlift.missions import load_mission
-from tandemlift.parts.controllers import CONTROLLERS, control, register
-from tandemlift.parts.controllers.interface import Command, ControllerTable, NoMemory
-from tandemlift.parts.mechanics.rigid_body import Wrench
 
 pytest.importorskip("cvxpy")
 scipy_signal = pytest.importorskip("scipy.signal")
@@ -59,30 +55,6 @@ def random_plant(rng, states=4, inputs=1, outputs=1):
     return Plant(A, rng.normal(size=(states, inputs)), rng.normal(size=(outputs, states)), np.zeros((outputs, inputs)))
 
 
-class ByHand(NamedTuple):
-    """Gains of a controller that Python calls."""
-
-
-@pytest.fixture
-def plain_python():
-    """A mission whose controller is plain Python."""
-
-    class Settings(ControllerTable):
-        name: str = "by-hand"
-
-    @control.register(ByHand, compiled=False)
-    def hover(k, memory, measured, reference):
-        return Command(Wrench(34.335, ZERO), ZERO), memory
-
-    @register("by-hand", Settings)
-    def start(settings, vehicle, step):
-        return ByHand(), NoMemory()
-
-    yield load_mission("iris", {"controller": {"name": "by-hand"}})
-    CONTROLLERS.pop("by-hand")
-    control.interpreted.discard(ByHand)
-
-
 @cache
 def loop_of(name):
     return cut_loop.loop_of(load_mission(name))
@@ -91,6 +63,11 @@ def loop_of(name):
 @cache
 def flights_of(name):
     return nonlinear.OffsetFlights(load_mission(name))
+
+
+@cache
+def tier_of_iris():
+    return nonlinear_tier(load_mission("iris"), fly=True)
 
 
 def test_the_circle_criterion_gives_the_sector_of_khalils_example():
@@ -179,12 +156,12 @@ def test_the_switching_of_paper_tolerates_the_gain_at_which_sampling_chatters():
 
 
 def test_no_state_on_the_edge_of_a_region_is_lost_in_flight():
-    """30 random mixtures of offsets, each on the edge of the region, with every nonlinearity and all axes at once."""
+    """12 random mixtures of offsets, each on the edge of the region, with every nonlinearity and all axes at once."""
     mission, rng = load_mission("iris"), np.random.default_rng(6)
     parts = nonlinear.offset_parts(mission, loop_of("iris"))
-    alone = {name: nonlinear.farthest(mission, parts, {name: 1.0}) for name in cut_loop.DISTURBED}
-    for i in range(30):
-        named = [n for n in alone if i >= 20 or n in (PITCHES, ROLLS)[i % 2]]
+    alone = {claim.subject: claim.value for claim in tier_of_iris().claims if claim.quantity == "offset recovered"}
+    for i in range(12):
+        named = [n for n in alone if i >= 8 or n in (PITCHES, ROLLS)[i % 2]]
         offset = {name: rng.normal() * alone[name] for name in named}
         factor = nonlinear.farthest(mission, parts, offset)
         assert flights_of("iris").recovers({name: factor * x for name, x in offset.items()}), (factor, offset)
@@ -196,7 +173,7 @@ def test_flights_far_beyond_a_region_are_lost():
 
 
 def test_the_tier_of_iris_is_complete_and_its_limits_are_flown_beyond():
-    tier = nonlinear_tier(load_mission("iris"), fly=True)
+    tier = tier_of_iris()
     assert tier.reason == ""
     assert {c.quantity for c in tier.claims} == {
         *("finite thrusts", "thrusts within limits", "offset recovered"),
@@ -231,8 +208,8 @@ def test_a_mission_without_limits_and_switching_keeps_the_boxes():
     assert "neither thrust limits nor a switching function" in tier.reason
 
 
-def test_a_plain_python_controller_has_a_reason_and_no_claims(plain_python):
-    tier = nonlinear_tier(plain_python)
+def test_a_plain_python_controller_has_a_reason_and_no_claims():
+    tier = nonlinear_tier(load_mission("iris", controller=str(LISTINGS / "my_pd_plain.py")))
     assert tier.claims == ()
     assert tier.reason.count("is plain Python") == 2
 

@@ -174,8 +174,6 @@ def test_a_class_is_graded_and_what_misbehaves_is_named(tmp_path):
     solution = EXERCISES / "solutions" / f"{first}.py"
     handed_in(tmp_path, "anna", first, "%matplotlib inline\nimport numpy as np", source(first))
     handed_in(tmp_path, "ben", first, source(first), "1 / 0")
-    loop = "while True:\n    try:\n        pass\n    except BaseException:\n        pass"
-    handed_in(tmp_path, "cleo", first, "x = 1", loop)
     handed_in(
         tmp_path, "dan", first, f"try:\n    exec(open({str(solution)!r}).read())\nexcept BaseException:\n    pass"
     )
@@ -186,15 +184,14 @@ def test_a_class_is_graded_and_what_misbehaves_is_named(tmp_path):
     handed_in(tmp_path, "ida", first, "raise SystemExit")
     handed_in(tmp_path, "jo", first, "import checks\nchecks.check_flight = lambda points=10: None")
     (tmp_path / "kim.ipynb").write_text("{}", "utf-8")
-    code, said = graded(tmp_path, "--seconds", "60")
+    code, said = graded(tmp_path, "--seconds", "600")
     assert code == 3
     assert re.findall(r"^(\w+) +(\d+) +\d+$", said, re.M) == [
-        *(("anna", "10"), ("ben", "10"), ("cleo", "0"), ("dan", "0"), ("eve", "0")),
-        *(("finn", "0"), ("gus", "0"), ("hal", "0"), ("ida", "0"), ("jo", "0")),
+        *(("anna", "10"), ("ben", "10"), ("dan", "0"), ("eve", "0"), ("finn", "0")),
+        *(("gus", "0"), ("hal", "0"), ("ida", "0"), ("jo", "0")),
     ]
     for line in (
         "ben, 1-admittance: cell 2, ZeroDivisionError: division by zero",
-        "cleo, 1-admittance: cell 2 did not end within 60 s",
         f"dan, 1-admittance: cell 1 reads the solution ({first}.py)",
         "eve, 1-admittance: cell 1 ended the process",
         "finn, 1-admittance: cell 1, SyntaxError: ",
@@ -206,6 +203,14 @@ def test_a_class_is_graded_and_what_misbehaves_is_named(tmp_path):
         assert line in said, said
 
 
+def test_an_endless_cell_is_ended_and_named_although_it_catches_everything(tmp_path):
+    loop = "while True:\n    try:\n        pass\n    except BaseException:\n        pass"
+    handed_in(tmp_path, "cleo", "1-admittance", loop)
+    code, said = graded(tmp_path, "--seconds", "5")
+    assert code == 3
+    assert re.search("cleo, 1-admittance: (cell 1|the start) did not end within 5 s", said), said  # by how busy it is
+
+
 def test_where_nothing_was_compiled_yet_whole_notebooks_with_right_answers_get_all_points(tmp_path):
     for name in ("1-admittance", "4-allocation", "6-passivity"):  # which fly the same mission
         notebook = json.loads((EXERCISES / name / f"{name}.ipynb").read_text("utf-8"))
@@ -214,7 +219,7 @@ def test_where_nothing_was_compiled_yet_whole_notebooks_with_right_answers_get_a
             cell["source"] = source(name) if cell is cells[0] else ""
         (tmp_path / f"{name}.ipynb").write_text(json.dumps(notebook), "utf-8")
     new = {"TANDEMLIFT_CACHE": str(tmp_path / "cache"), "TANDEMLIFT_OPTIMISE": "1"}
-    _, said = graded(tmp_path, "--seconds", "60", **new)
+    _, said = graded(tmp_path, "--seconds", "600", **new)
     assert re.findall(r" (\d+)$", said, re.M) == ["10", "10", "10"], said
 
 

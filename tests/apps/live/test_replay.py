@@ -3,7 +3,6 @@
 import base64
 import dataclasses
 import hashlib
-import html.parser
 import itertools
 import json
 import os
@@ -16,6 +15,7 @@ import urllib.request
 
 import numpy as np
 import pytest
+from html_page import Page
 from live_page import PAGE, Running, put_page
 from patience import PATIENCE, said
 from scipy.spatial.transform import Rotation
@@ -46,32 +46,9 @@ def page(tmp_path, monkeypatch):
     return folder
 
 
-class Reader(html.parser.HTMLParser):
-    """The elements of a page, with their attributes and the text in them."""
-
-    def __init__(self, text):
-        super().__init__()
-        self.elements, self.open = [], False
-        self.feed(text)
-
-    def handle_starttag(self, tag, attrs):
-        self.elements.append([tag, dict(attrs), ""])
-        self.open = True
-
-    def handle_endtag(self, tag):
-        self.open = False
-
-    def handle_data(self, data):
-        if self.open:
-            self.elements[-1][2] += data
-
-    def of(self, tag, **attrs):
-        return [(a, text) for t, a, text in self.elements if t == tag and attrs.items() <= a.items()]
-
-
 def embedded(text):
     """Scene and frames in a page."""
-    ((_, data),) = Reader(text).of("script", id="flight")
+    ((_, data),) = Page(text).of("script", id="flight")
     found = json.loads(data)
     return found["scene"], base64.b64decode(found["frames"])
 
@@ -233,18 +210,17 @@ def test_every_kind_of_mission_has_a_scene(name):
 
 def test_a_page_that_stands_alone_refers_to_nothing_and_may_load_nothing(flight):
     text = replay_html(flight, {f"/{name}": content for name, content in PAGE.items()})
-    read = Reader(text)
-    for tag, attrs, _ in read.elements:
+    read = Page(text)
+    for tag, attrs in read.elements:
         assert not {"src", "href", "srcset", "action", "data"} & attrs.keys(), tag
     assert not re.search(r"(https?|wss?|ftp):", text)
-    heads = [t for t, a, _ in read.elements]
+    heads = [t for t, a in read.elements]
     assert heads.index("meta") < heads.index("script")
-    (policy,) = [a["content"] for a, _ in read.of("meta") if a.get("http-equiv") == "Content-Security-Policy"]
-    assert policy.startswith("default-src 'none'; ")
-    assert "connect-src" not in policy  # so the default holds
+    assert read.policy.startswith("default-src 'none'; ")
+    assert "connect-src" not in read.policy  # so the default holds
     ((_, script),) = read.of("script", type="module")
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
-    assert f"script-src 'sha256-{digest}';" in policy
+    assert f"script-src 'sha256-{digest}';" in read.policy
     assert script.strip().endswith('[end, comment, "ä"];')
     assert len(read.of("style")) == 1
     assert "margin: 0" in read.of("style")[0][1]
@@ -257,7 +233,7 @@ def test_a_page_that_stands_alone_holds_the_frames(flight):
         found, data = embedded(text)
         assert found == json.loads(json.dumps(scene))
         assert data == frames.tobytes()
-        order = [(t, a.get("id")) for t, a, _ in Reader(text).elements if t == "script"]
+        order = [(t, a.get("id")) for t, a in Page(text).elements if t == "script"]
         assert order == [("script", "flight"), ("script", None)]
 
 
@@ -268,7 +244,7 @@ def test_no_name_of_a_mission_ends_the_data(flight):
     )
     text = replay_html(named, {f"/{n}": content for n, content in PAGE.items()})
     assert embedded(text)[0]["mission"] == name
-    assert len(Reader(text).of("script")) == 2
+    assert len(Page(text).of("script")) == 2
 
 
 def test_a_replay_is_served_without_a_socket(flight, page):
@@ -379,13 +355,13 @@ def test_the_address_is_printed_and_ctrl_c_ends_it_well(verb, flight, page, tmp_
 
 def test_the_page_that_ships_can_stand_alone(flight):
     text = replay_html(flight, page_files())
-    read = Reader(text)
-    for tag, attrs, _ in read.elements:
+    read = Page(text)
+    for tag, attrs in read.elements:
         assert not {"src", "srcset", "action", "data"} & attrs.keys(), tag
         assert attrs.get("href", "#").startswith(("#", "data:")), tag
     ((_, script),) = read.of("script", type="module")
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
-    assert f"'sha256-{digest}'" in read.of("meta", **{"http-equiv": "Content-Security-Policy"})[0][0]["content"]
+    assert f"'sha256-{digest}'" in read.policy
     assert embedded(text)[0]["mission"] == flight.name
 
 

@@ -90,26 +90,24 @@ def test_processes_that_compile_the_same_at_once_all_fly_and_leave_one_good_file
 
 
 def test_after_a_process_is_killed_at_any_moment_the_next_one_flies(cache, right, monkeypatch):
-    """Ten are killed, from the first import until they have flown; nothing half is ever read."""
+    """Six are killed, from the first import until they have flown; nothing half is ever read."""
     monkeypatch.delenv("TANDEMLIFT_OPTIMISE")
     chance = random.Random(1)
     began = time.monotonic()
     check_output(started())
-    whole, after = time.monotonic() - began, 0
-    for i in range(10):
+    whole = time.monotonic() - began
+    for i in range(6):
         if i % 2:  # compiled anew every other time
             for file in (cache / "code").iterdir():
                 file.unlink(missing_ok=True)  # an optimising process may still be at it
         process = started(FLY.replace("flight = ", f"{OPTIMISED}\nflight = "))
-        time.sleep(chance.uniform(0.2, 1.1) * whole)
+        time.sleep(chance.uniform(0.2, 1.1) * whole if i else 0.0)  # wherever it is by then
         process.send_signal(signal.SIGKILL)
         process.communicate(timeout=PATIENCE)
-        after += process.returncode == 0
-        if i % 5 == 4:
+        if i == 5:
             assert check_output(started()) == right
         else:
             assert np.array_equal(here()["thrust"], here.first["thrust"])
-    assert after < 8  # most of them were killed
 
 
 def here():

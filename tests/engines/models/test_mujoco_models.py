@@ -4,7 +4,7 @@ import importlib
 
 import numpy as np
 import pytest
-from modelled import MISSIONS, links_of, loaded, shapes_of
+from modelled import MISSIONS, loaded
 
 import tandemlift as tl
 from tandemlift.engines.models.scene import floor_from, walls_from
@@ -62,22 +62,6 @@ def test_a_mujoco_model_flies_and_feels_as_the_engine(name, more, mujoco, model_
     thrusts *= np.linspace(0.9, 1.05, vehicle.rotor_count)
     worst, _ = flown_beside_the_engine(mujoco, model_of(mission), mission, vehicle, thrusts, 400)
     assert worst < 1e-8
-
-
-@pytest.mark.parametrize("name", ["unlike", *built_in()])
-def test_both_models_show_the_same_parts_at_the_same_places(name, world, mujoco, model_of):
-    found, model = world(name), model_of(loaded(name, {"initial.position": 0.0, "initial.euler": 0.0})[0])
-    data, shown = mujoco.MjData(model), 0
-    mujoco.mj_forward(model, data)
-    for link in links_of(found.lines):
-        for shape, (size, position, rotation) in shapes_of(found.lines, link.name, "visual").items():
-            geom, halves = f"{link.name.replace('_', '')} {shape} visual", np.array(size[1:])
-            halves *= {"box": [0.5, 0.5, 0.5], "sphere": [1.0], "cylinder": [1.0, 0.5]}[size[0]]
-            np.testing.assert_allclose(model.geom(geom).size[: len(halves)], halves, atol=1e-6)
-            np.testing.assert_allclose(data.geom(geom).xpos, link.position + position, atol=1e-6)
-            np.testing.assert_allclose(data.geom(geom).xmat.reshape(3, 3), rotation.as_matrix(), atol=3e-6)
-            shown += 1
-    assert shown == sum(model.geom(i).name.endswith(" visual") for i in range(model.ngeom))
 
 
 def test_a_vehicle_without_thrust_falls_freely(mujoco, model_of):

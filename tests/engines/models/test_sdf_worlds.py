@@ -10,6 +10,7 @@ from scipy.spatial.transform import Rotation
 import tandemlift as tl
 from tandemlift.apps.export.write import export
 from tandemlift.engines.models.scene import floor_from
+from tandemlift.missions import built_in
 from tandemlift.parts.contact.hull import HALF_THICKNESS
 from tandemlift.parts.contact.spheres import SPARED
 
@@ -162,6 +163,22 @@ def test_a_world_shows_every_rotor_where_it_is_and_needs_no_file_of_its_own(worl
         assert {size[:2] for size, _, _ in rotors.values()} == {("cylinder", q.rotor_radius)}
     tags = {element.tag for element in ElementTree.parse(found.path).iter()}
     assert not tags & {"mesh", "uri", "include", "script", "plugin"}
+
+
+@pytest.mark.parametrize("name", ["unlike", *built_in()])
+def test_both_models_show_the_same_parts_at_the_same_places(name, world, mujoco, model_of):
+    found, model = world(name), model_of(loaded(name, {"initial.position": 0.0, "initial.euler": 0.0})[0])
+    data, shown = mujoco.MjData(model), 0
+    mujoco.mj_forward(model, data)
+    for link in links_of(found.lines):
+        for shape, (size, position, rotation) in shapes_of(found.lines, link.name, "visual").items():
+            geom, halves = f"{link.name.replace('_', '')} {shape} visual", np.array(size[1:])
+            halves *= {"box": [0.5, 0.5, 0.5], "sphere": [1.0], "cylinder": [1.0, 0.5]}[size[0]]
+            np.testing.assert_allclose(model.geom(geom).size[: len(halves)], halves, atol=1e-6)
+            np.testing.assert_allclose(data.geom(geom).xpos, link.position + position, atol=1e-6)
+            np.testing.assert_allclose(data.geom(geom).xmat.reshape(3, 3), rotation.as_matrix(), atol=3e-6)
+            shown += 1
+    assert shown == sum(model.geom(i).name.endswith(" visual") for i in range(model.ngeom))
 
 
 def test_the_plugin_has_its_port(reader, tmp_path):

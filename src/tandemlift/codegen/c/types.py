@@ -8,6 +8,7 @@ import itertools
 import re
 import textwrap
 from collections.abc import Callable, Iterable, Iterator
+from functools import cache
 from typing import Any, NamedTuple
 
 from tandemlift.compiler.tracer import Symbol
@@ -26,6 +27,7 @@ NO_MEMBER = frozenset(KEYWORDS.split())
 RESERVED = NO_MEMBER | {"shared"} | set(LIBRARY.split())  # `shared`: of the parts of a function (`text`)
 
 
+@cache
 def identifier(name: str) -> str:
     """A name as an identifier of C: no leading underscores, no dots, dashes or other letters."""
     plain = re.sub(r"\W", "_", name, flags=re.ASCII).strip("_") or "value"
@@ -137,16 +139,20 @@ class Structs:
 
     def __init__(self, names: Names) -> None:
         self.names, self.all = names, dict[Any, Struct]()
+        self._known = dict[int, tuple[Any, Struct]]()  # by id, which a value keeps as long as it is here
 
     def of(self, value: Any) -> Any:
         """The type of a value: a `Struct`, or the letter of a number's type."""
         if not is_nested(value):
             return value.type if isinstance(value, Symbol) else "f"
+        if id(value) in self._known:
+            return self._known[id(value)][1]
         members = tuple(Member(access, self.of(part)) for access, part in parts_of(value))
         key = type(value), members
         if key not in self.all:
             name = self.names.new(type(value).__name__ if hasattr(value, "_fields") else "Items")
             self.all[key] = Struct(name, members, len(list(numbers_in(value))), is_set(value), type(value))
+        self._known[id(value)] = value, self.all[key]
         return self.all[key]
 
 

@@ -12,7 +12,7 @@ from tandemlift.apps.live.replay import replay_html
 BUTTONS = ("Lift", "Land", "Stop", "Pause", "Save")
 
 
-@pytest.mark.parametrize("size", [(1280, 800), (800, 450), (390, 844)])
+@pytest.mark.parametrize("size", [(1280, 800), (800, 450)])  # phones: `test_looks.py`
 def test_nothing_on_the_page_is_cut_off_at_any_size(browser, live, size):
     page = opened(browser, live.address)
     page.set_viewport_size({"width": size[0], "height": size[1]})

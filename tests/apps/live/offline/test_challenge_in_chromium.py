@@ -3,14 +3,13 @@
 import pytest
 from chromium import opened, panel, seconds_flown
 from patience import until
-from sessions import GUIDED
+from sessions import CORRIDOR
 
 from tandemlift.apps.live import pages
 from tandemlift.apps.live.page_files import page_files
 from tandemlift.apps.live.page_modules import packed_mission, page_mission
 
 UPRIGHT, LYING = {"width": 390, "height": 844}, {"width": 844, "height": 390}
-LOW = {"corridor.centreline": [[-1.0, 0.0], [3.0, 0.0]], "corridor.width": 3.4, "corridor.height": 1.2}
 TOUCH = {"has_touch": True, "is_mobile": True}
 CUT = """() => [...document.querySelectorAll("#dock button span, #dock dd")]
   .filter((one) => one.checkVisibility())
@@ -22,7 +21,7 @@ CUT = """() => [...document.querySelectorAll("#dock button span, #dock dd")]
 @pytest.fixture(scope="module")
 def corridor(tmp_path_factory):
     file = tmp_path_factory.mktemp("page") / "corridor.html"
-    flight = packed_mission(page_mission("hover", GUIDED | LOW), "a low corridor")
+    flight = packed_mission(page_mission("hover", CORRIDOR), "a low corridor")
     file.write_text(pages.offline_html([flight], page_files()), "utf-8")
     return file.as_uri()
 

@@ -1,7 +1,7 @@
 """Two flights under one hand on the page: kept, told in words and plots, swapped, saved, ended."""
 
 import numpy as np
-from chromium import opened, panel, paused, pushed, resized, save, seconds_flown
+from chromium import aloft, panel, paused, pushed, save
 from own_flight import check_flies_again
 from patience import until
 
@@ -11,9 +11,7 @@ WIDE = {"width": 1920, "height": 1080}
 
 
 def test_a_ghost_is_kept_seen_in_words_and_plots_swapped_and_saved(browser, address, tmp_path):
-    page = opened(browser, address)
-    resized(page, WIDE)
-    until(lambda: seconds_flown(page) > 6.0, "a flight at its height")
+    page = aloft(browser, address, WIDE)
     entry = panel(page, "admittance.damping").locator("input[type=number]").first
     page.get_by_label("Compare").select_option(index=1)
     until(lambda: "same settings" in page.inner_text("#comparison"), "a ghost")

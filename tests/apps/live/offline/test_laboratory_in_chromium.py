@@ -3,7 +3,7 @@
 import time
 
 import numpy as np
-from chromium import opened, panel, pushed, resized, save, seconds_flown
+from chromium import aloft, opened, panel, pushed, resized, save, seconds_flown
 from patience import until
 
 import tandemlift as tl
@@ -26,9 +26,7 @@ def shown(page):
 
 
 def test_a_drag_zooms_all_plots_which_show_values_at_one_moment_and_come_back(browser, address):
-    page = opened(browser, address)
-    resized(page, WIDE)
-    until(lambda: seconds_flown(page) > 4.0, "a flight")
+    page = aloft(browser, address, WIDE, 4.0)
     x, y, width = area(page)
     page.mouse.move(x + 0.95 * width, y)
     page.mouse.down()
@@ -49,8 +47,8 @@ def test_a_drag_zooms_all_plots_which_show_values_at_one_moment_and_come_back(br
     assert len(set(right)) == 1
     assert right[0] - left[0] < 1.6
     page.mouse.dblclick(x + 0.5 * width, y)
-    page.mouse.move(x + 0.5 * width, y + 1)
-    until(lambda: not shown(page), "the last 20 s, which had not begun at their middle")
+    page.mouse.move(x + 0.02 * width, y + 1)
+    until(lambda: not shown(page), "the last 20 s, in whose first the flight had not begun")
     assert page.wrong == []
     page.context.close()
 
@@ -89,9 +87,7 @@ def test_fingers_spread_time_and_a_tapped_mark_is_the_moment(browser, address):
 
 
 def test_who_tries_again_pushes_anew_and_saves_the_new_flight(browser, address, tmp_path):
-    page = opened(browser, address)
-    resized(page, WIDE)
-    until(lambda: seconds_flown(page) > 6.0, "a flight at its height")
+    page = aloft(browser, address, WIDE)
     pushed(page)
     entry = panel(page, "person.stiffness").locator("input[type=number]")
     first = entry.input_value()

@@ -3,7 +3,7 @@
 import time
 
 import pytest
-from chromium import dropped, opened, paused, resized, seconds_flown
+from chromium import aloft, dropped, opened, paused, seconds_flown
 from click.testing import CliRunner
 from patience import until
 from repository import ROOT
@@ -54,9 +54,7 @@ def said(page):
 
 @pytest.mark.parametrize("colours", ["light", "dark"])
 def test_in_a_lecture_values_have_28_pixels_and_texts_22(browser, address, colours):
-    page = opened(browser, address, color_scheme=colours)
-    resized(page, HALL)
-    until(lambda: seconds_flown(page) > 6.0, "a flight at its height")
+    page = aloft(browser, address, HALL, color_scheme=colours)
     page.keyboard.press("t")
     until(lambda: page.evaluate("document.fullscreenElement !== null"), "full screen")
     dropped(page, SCRIPT)
@@ -81,9 +79,7 @@ def test_in_a_lecture_values_have_28_pixels_and_texts_22(browser, address, colou
 
 
 def test_keys_go_through_the_steps_of_a_script_which_do_what_they_say(browser, address):
-    page = opened(browser, address)
-    resized(page, HALL)
-    until(lambda: seconds_flown(page) > 6.0, "a flight at its height")
+    page = aloft(browser, address, HALL)
     first = value(page, "admittance.damping")
     dropped(page, SCRIPT)
     until(lambda: said(page) == ("A test · 1 of 3", "It hovers."), "the first step")

@@ -1,7 +1,6 @@
 """The page's own flights: links, damaged flights, saved files, and the files that the page consists of."""
 
 import gzip
-import html.parser
 import json
 import shutil
 import zipfile
@@ -9,9 +8,10 @@ import zipfile
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from html_page import Page
 from own_flight import INDEX, OwnFlight
 from repository import ROOT
-from sessions import GUIDED
+from sessions import CORRIDOR
 
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli
@@ -161,33 +161,16 @@ HOVER_FILE = str(DATA / "missions" / "hover.toml")
 LISTINGS = ROOT / "docs" / "reference" / "listings"
 
 
-class Elements(html.parser.HTMLParser):
-    """Elements of a page by their id, and its policy."""
-
-    def __init__(self, text):
-        super().__init__()
-        self.texts, self.policy, self.id = {}, "", None
-        self.feed(text)
-
-    def handle_starttag(self, tag, attrs):
-        self.id = dict(attrs).get("id") if tag == "script" else None
-        if dict(attrs).get("http-equiv") == "Content-Security-Policy":
-            self.policy = dict(attrs)["content"]
-
-    def handle_data(self, data):
-        if self.id:
-            self.texts[self.id] = self.texts.get(self.id, "") + data
-
-
 def test_a_page_in_one_file_holds_worker_and_flights_and_may_load_nothing(hover):
-    page = Elements(pages.offline_html([hover], page_files()))
-    index = json.loads(page.texts["flights"])
+    page = Page(pages.offline_html([hover], page_files()))
+    texts = {found["id"]: text for found, text in page.of("script") if "id" in found}
+    index = json.loads(texts["flights"])
     assert [(m["name"], m["sha256"]) for m in index["missions"]] == [("hover", hover.sha256)]
     assert index["only_server"]
     assert "connect-src" not in page.policy
     assert page.policy.startswith("default-src 'none'")
-    assert page.texts["worker"].strip() == page_files()["/worker.js"].decode().strip()
-    assert json.loads(page.texts["flight"])["scene"]["mission"] == pages.SHOWN_INSTEAD
+    assert texts["worker"].strip() == page_files()["/worker.js"].decode().strip()
+    assert json.loads(texts["flight"])["scene"]["mission"] == pages.SHOWN_INSTEAD
 
 
 def test_a_page_for_a_web_server_has_its_flights_beside_it(hover):
@@ -292,8 +275,7 @@ def test_every_setting_and_every_rotor_of_a_page_is_a_number_that_its_module_tak
 
 
 def test_a_flight_through_a_corridor_has_the_score_of_its_saved_file(tmp_path):
-    corridor = {"corridor.centreline": [[-1.0, 0.0], [0.4, 0.0], [1.0, 0.3]], "corridor.width": 3.4}
-    flight = OwnFlight(packed_mission(page_mission("hover", GUIDED | corridor), "a corridor"))
+    flight = OwnFlight(packed_mission(page_mission("hover", CORRIDOR), "a low corridor"))
     flight.fly(6.0)
     assert "score" not in flight.status()
     flight.saved(tmp_path / "early")

@@ -13,7 +13,7 @@ from tandemlift.parts.interaction.virtual_hand import HAND_RELEASED
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 RATE = 60  # targets a second
-GRABBED = {"hover": 7.0, "iris": 14.0, "zigzag": 14.0}  # s, when the vehicle hovers and its sensors are tared
+GRABBED = {"hover": 7.0, "iris": 14.0}  # s, when the vehicle hovers and its sensors are tared
 PULLED = 10.0  # s
 CHATTER = 0.6  # N: 1.7 to 2.0 N with a damper between hand and grip; 0.2 N at most with a still hand
 

@@ -9,7 +9,7 @@ import hypothesis.strategies as st
 import pytest
 from for_all import for_all
 from hostile import GOOD, hostile
-from hypothesis import given
+from hypothesis import given, settings
 
 from tandemlift.apps.live.session import page_messages as reading
 from tandemlift.apps.live.session.page_messages import (
@@ -121,6 +121,7 @@ def test_what_a_message_is_about_names_its_key():
     assert subject_of(read_message(json.dumps(GOOD[2]))) == "release"
 
 
+@settings(max_examples=50)
 @given(
     st.recursive(
         st.none() | st.booleans() | st.floats() | st.text(), lambda x: st.lists(x) | st.dictionaries(st.text(), x)
