@@ -128,7 +128,9 @@ class Studio:
 
         size, pixels = (FINE * self._size[0], FINE * self._size[1]), vtkUnsignedCharArray()
         self._plotter.render_window.GetRGBACharPixelData(0, 0, size[0] - 1, size[1] - 1, 1, pixels)
-        return Image.frombuffer("RGBX", size, memoryview(pixels), "raw", "RGBX", 0, -1)  # the lowest row comes first
+        return Image.frombuffer(
+            "RGBX", size, self._pv.convert_array(pixels), "raw", "RGBX", 0, -1
+        )  # the lowest row comes first
 
     def _move(self, time: float, view: View) -> None:
         """Put vehicle, shadow, path and push where they are at a time."""
