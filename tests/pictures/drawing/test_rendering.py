@@ -127,6 +127,18 @@ def test_walls_are_seen_and_seen_through(flight):
     assert reddish(walled).any()  # the arrow behind the wall
 
 
+def test_walls_and_discs_are_blended_in_the_order_that_depth_peeling_finds_for_each_pixel(flight):
+    walls = {"walls": [{"start": [-3.0, y], "end": [3.0, y], "top": 2.0} for y in (-1.6, 1.6)]}
+    film = Film(dataclasses.replace(flight, mission=flight.mission | walls), camera_of("side"), (320, 180))
+    drawn = np.asarray(film.picture(3.0)).astype(int)
+    renderer = film._studio._plotter.renderer
+    renderer.UseDepthPeelingOn()
+    renderer.SetMaximumNumberOfPeels(40)
+    renderer.SetOcclusionRatio(0.0)  # as many layers as there are
+    peeled = np.asarray(film.picture(3.0)).astype(int)
+    assert (np.abs(drawn - peeled).max(axis=-1) > 2).sum() < 20  # at edges; an average of all layers: 137 pixels
+
+
 @pytest.mark.parametrize("name", ["follow", "overview", "front", "side", "top", "30,40", "-120,12.5,6"])
 def test_every_camera_shows_the_vehicle(flight, name):
     image = np.asarray(picture(flight, Shot(size=TINY, camera=camera_of(name)))).astype(int)

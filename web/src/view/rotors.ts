@@ -85,10 +85,8 @@ export class Rotors {
       this.discs.setMatrixAt(i, new Matrix4().makeScale(radius, radius, radius).setPosition(place.hub));
       this.arrow(i, place, share);
     });
-    for (const mesh of [this.blades, this.discs, this.shafts, this.heads]) {
-      mesh.instanceMatrix.needsUpdate = true;
-      if (mesh.instanceColor) mesh.instanceColor.needsUpdate = true;
-    }
+    for (const mesh of [this.blades, this.discs, this.shafts, this.heads]) mesh.instanceMatrix.needsUpdate = true;
+    for (const mesh of [this.shafts, this.heads]) mesh.instanceColor!.needsUpdate = true; // the others keep theirs
   }
 
   private arrow(i: number, { hub, radius }: Place, share: number): void {

@@ -5,8 +5,8 @@ import { BufferAttribute, BufferGeometry, Group, Line, LineBasicMaterial, LineSe
 import type { Vector } from "../wire/messages.generated.ts";
 import { palette } from "./palette.ts";
 
-const KEPT = 600; // points of a piece
-const STEP = 0.03; // m between points
+const KEPT = 225; // points of a piece
+const STEP = 0.08; // m between points: few enough for a processor that draws them, and a path still looks round
 
 const PIECES = 200; // of paths that stay
 const PAST = 0.4; // opacity of a path of an earlier flight

@@ -80,6 +80,7 @@ class Studio:
         self._plotter = self._pv.Plotter(off_screen=True, window_size=[FINE * n for n in size], lighting="none")
         weakref.finalize(self, self._plotter.close)  # pyvista keeps a plotter, of tens of megabytes, until it is closed
         self._plotter.render_window.SetMultiSamples(0)  # FINE smooths the edges; both would take twice the time
+        self._blend_in_order()
         self._shown: dict[str, Any] = {}  # meshes that change from picture to picture
         for direction, strength in ((SUN, 0.72), (SUN * [-1.0, -1.0, 0.4], 0.25)):  # the sun, and what the sky sends
             light = self._pv.Light(position=100.0 * direction, light_type="scene light", intensity=strength)
@@ -107,8 +108,29 @@ class Studio:
         camera.position, camera.focal_point, camera.up = view.eye, view.target, view.up
         camera.view_angle = 2.0 * np.degrees(np.arctan(height / 2.0 / view.focal))
         camera.clipping_range = (NEAR, 2.0 * ground.DOME * ground.EDGE * view.distance)
-        self._plotter.render()
-        return Image.fromarray(self._plotter.screenshot(None, return_img=True)).reduce(FINE)
+        self._plotter.render_window.Render()
+        return self._fine_picture().reduce(FINE).convert("RGB")
+
+    def _blend_in_order(self) -> None:
+        """Draw what is farther first, so that each wall and disc is blended over what is behind it.
+
+        By default VTK averages all that is translucent at a pixel, whatever its order, in buffers as large as the
+        picture: without a graphics card that takes as long as all else.
+        """
+        renderer = self._plotter.renderer
+        if hasattr(renderer, "UseOITOff"):  # from VTK 9.4 on
+            renderer.UseOITOff()
+            renderer.GetCullers().GetLastItem().SetSortingStyleToBackToFront()
+
+    def _fine_picture(self) -> Image.Image:
+        """What the window shows, with `FINE` times the pixels each way; a screenshot would copy it twice more."""
+        from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
+
+        size, pixels = (FINE * self._size[0], FINE * self._size[1]), vtkUnsignedCharArray()
+        self._plotter.render_window.GetRGBACharPixelData(0, 0, size[0] - 1, size[1] - 1, 1, pixels)
+        return Image.frombuffer(
+            "RGBX", size, self._pv.convert_array(pixels), "raw", "RGBX", 0, -1
+        )  # the lowest row comes first
 
     def _move(self, time: float, view: View) -> None:
         """Put vehicle, shadow, path and push where they are at a time."""
