@@ -18,6 +18,7 @@ from tandemlift.analysis.studies.design.keys import columns_of
 from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.design.settings import REFUSED, StudySettings
 from tandemlift.analysis.studies.design.statistics import share
+from tandemlift.analysis.studies.execution.chunk import chunk_spans
 from tandemlift.analysis.studies.execution.store import StudyFolder
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.phases import FAILURES
@@ -215,12 +216,9 @@ def load_study(folder: str | os.PathLike[str]) -> Study:
         import pyarrow  # noqa: F401
     path = Path(folder)
     store = StudyFolder(path)
-    files = []
-    for i, name in enumerate(store.names()):
-        first, file = i * store.rows_per_chunk, store.files.file(name)
-        if file.exists():
-            files.append(ChunkFile(file, first, min(store.count, first + store.rows_per_chunk)))
-    return Study(path, store.plan(), tuple(files))
+    spans = chunk_spans(store.count, store.rows_per_chunk)
+    files = [ChunkFile(store.files.file(name), *span) for name, span in zip(store.names(), spans, strict=True)]
+    return Study(path, store.plan(), tuple(file for file in files if file.path.exists()))
 
 
 def outcome_lines(study: Study) -> Iterator[str]:

@@ -9,7 +9,7 @@ import pytest
 from study_runs import LONGER, TWELVE, assert_same_rows, files_of, fly
 
 from tandemlift.analysis.studies.execution.chunk import sources_digest
-from tandemlift.analysis.studies.execution.workers import OtherSources, fly_packed
+from tandemlift.analysis.studies.execution.workers import fly_packed
 from tandemlift.core.errors import InputError
 
 
@@ -50,5 +50,5 @@ def test_an_executor_that_is_shut_down_is_refused(tmp_path):
 
 
 def test_a_chunk_for_other_sources_is_refused_unread():
-    with pytest.raises(OtherSources, match=rf"process {os.getpid()}: .* {sources_digest()}, this study .* 0123"):
+    with pytest.raises(InputError, match=rf"process {os.getpid()}: .* {sources_digest()}, this study .* 0123"):
         fly_packed("0123", b"no pickle at all")

@@ -88,7 +88,7 @@ class ChunkFiles:
         Raises:
             InputError: the file cannot be written.
         """
-        write_columns(columns, self.file(name), {**self._about, "chunk": name, "version": __version__})
+        write_columns(columns, self.file(name), {**self._about, "version": __version__})
 
     def clean(self) -> None:
         """Remove the half-written files and the claims of processes that were killed."""
