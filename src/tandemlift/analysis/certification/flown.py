@@ -15,7 +15,7 @@ import numpy as np
 
 from tandemlift.analysis.certification.parameters import ARM, parameter, with_keys
 from tandemlift.analysis.linearization.claims import Claim, FlownLimit, Tier
-from tandemlift.analysis.linearization.loop_margins import calm_mission
+from tandemlift.analysis.linearization.loop_margins import calm_mission, without_errors
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array
@@ -115,7 +115,7 @@ def hover_as_flown(mission: Mission) -> tuple[Mission, float]:
         t["actuators"] = own["actuators"]
     for q, original in zip(t["vehicle"]["quadrotors"], own["vehicle"]["quadrotors"], strict=True):
         q |= {"max_speed": original["max_speed"], "lag_up": lag, "lag_down": lag}
-    t["sensors"] = _without_resolution(t["sensors"])
+    t["sensors"] = without_errors(t["sensors"], ("resolution",))
     return check(t, mission.mission.name, quiet=True), at
 
 
@@ -154,16 +154,6 @@ def _grip(mission: Mission) -> list[float]:
     return np.add(vehicle.origin, mission.vehicle.quadrotors[0].position).tolist()
 
 
-def _without_resolution(sensors: dict[str, Any]) -> dict[str, Any]:
-    """Sensors that do not round."""
-    return {
-        name: {key: 0.0 if key.endswith("resolution") else value for key, value in part.items()}
-        if isinstance(part, dict)
-        else part
-        for name, part in sensors.items()
-    }
-
-
 def motions(flight: Flight) -> Array:
     """The rates of turn [rad/s] and the climb [m/s] (T, 4) of a flight."""
     return np.column_stack([flight["rates"], flight["velocity"][:, 2]])
@@ -189,24 +179,19 @@ def stability_in_hand(flight: Flight) -> str:
 
 
 def windows(flight: Flight) -> tuple[Array, Array]:
-    """Sizes (4,) of the motions after the push, and at the end."""
+    """Sizes (4,) of the motions after the push, and at the end: root mean squares about the mean."""
     motion, end = motions(flight), flight.time[-1]
     first, last = (
-        _sizes(motion[(flight.time >= start) & (flight.time <= start + WATCHED)])
+        motion[(flight.time >= start) & (flight.time <= start + WATCHED)].std(axis=0)
         for start in (end - LONG - WATCHED, end - WATCHED)
     )
     return first, last
 
 
-def _sizes(motion: Array) -> Array:
-    """The root mean square of each motion about its mean."""
-    return motion.std(axis=0)
-
-
 def frequency_of(flight: Flight) -> float:
     """The frequency [rad/s] of the largest motion of the last window, by its crossings of its mean."""
     motion = motions(flight)[flight.time >= flight.time[-1] - WATCHED]
-    values = motion[:, int(np.argmax(_sizes(motion)))]
+    values = motion[:, int(np.argmax(motion.std(axis=0)))]
     values = values - values.mean()
     crossings = np.flatnonzero((values[:-1] < 0.0) != (values[1:] < 0.0))
     if len(crossings) < 3:
@@ -222,13 +207,10 @@ def with_limits(tier: Tier, mission: Mission, fly: bool) -> Tier:
             trial, name = trial_of(mission, claim.parameter), f"limits/{claim.slug}.toml"
             files[name] = format_toml(tables_of(_mission_beyond(trial, claim.limit)))
             flown = flown_limit(trial, claim.limit) if fly else None
-            claim = claim._replace(command=f"tandemlift run {name}", nominal=_nominal(mission, claim), flown=flown)
+            nominal = parameter(claim.parameter).nominal(mission)
+            claim = claim._replace(command=f"tandemlift run {name}", nominal=nominal, flown=flown)
         claims.append(claim)
     return replace(tier, claims=tuple(claims), files=files)
-
-
-def _nominal(mission: Mission, claim: Claim) -> float:
-    return parameter(claim.parameter).nominal(mission)
 
 
 def _mission_beyond(trial: LimitTrial, limit: float) -> Mission:

@@ -22,7 +22,6 @@ from numpy.typing import NDArray
 from tandemlift.analysis.linearization.frequency_response import frequency_response
 from tandemlift.analysis.linearization.linear_model import LinearModel, Mode, modes_of
 from tandemlift.analysis.linearization.linearize import linearize
-from tandemlift.core.errors import without_flight_warnings
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, check, tables_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -41,6 +40,7 @@ FASTER = 10.0  # times the largest speed of the rotors, so that no thrust is lim
 RESTING = 0.02  # m/s and rad/s, of a calm hover
 FIRST, MOST = 1e-4, 100.0  # s, the shortest and the longest delay and lag that are tried
 RELATIVE = 1e-4  # accuracy of the results
+ERRORS = ("noise", "bias", "drift", "misalignment")  # ends of the names of sensors' keys
 FINER = 10  # frequencies for each at which a response is computed
 
 
@@ -98,7 +98,7 @@ def calm_mission(mission: Mission, *, lag: float | None = None, wait: float = 0.
     t["actuators"] |= {"model": "rotors", "delay": 0.0 if lag is None else mission.actuators.delay}
     for q in t["vehicle"]["quadrotors"]:
         q |= {"lag_up": lag or 0.0, "lag_down": lag or 0.0, "max_speed": FASTER * q["max_speed"]}
-    t["sensors"] = _without_errors(t["sensors"])
+    t["sensors"] = without_errors(t["sensors"]) | {"additional": []}
     height = max(mission.phases.height, 0.5) if floor else mission.phases.height
     t["phases"] |= {"lift_start": 1.0, "lift_duration": LIFT, "height": height}
     t["phases"].pop("land_start", None)
@@ -108,21 +108,16 @@ def calm_mission(mission: Mission, *, lag: float | None = None, wait: float = 0.
             e["tare_start"] = at
         at += SETTLED + mission.estimator.tare_duration + (SETTLED if mission.estimator.tare == "hover" else 0.0)
     t["mission"]["duration"] = at + wait + 1.0
-    with without_flight_warnings():
-        return check(t, mission.mission.name), at + wait
+    return check(t, mission.mission.name, quiet=True), at + wait
 
 
-def _without_errors(sensors: dict[str, Any]) -> dict[str, Any]:
-    """Sensors without noise, bias, drift and misalignment."""
-    wrong = ("noise", "bias", "drift", "misalignment")
-
-    def clean(name: str, value: object) -> object:
-        return 0.0 if name.endswith(wrong) and not isinstance(value, dict) else value
-
-    kept = {
-        k: {n: clean(n, v) for n, v in part.items()} if isinstance(part, dict) else part for k, part in sensors.items()
-    }
-    return {k: v for k, v in kept.items() if k != "additional"}
+def without_errors(sensors: Any, errors: tuple[str, ...] = ERRORS) -> Any:
+    """Tables of sensors in which the keys that end with the name of an error are 0."""
+    if isinstance(sensors, list):
+        return [without_errors(part, errors) for part in sensors]
+    if not isinstance(sensors, dict):
+        return sensors
+    return {name: 0.0 if name.endswith(errors) else without_errors(part, errors) for name, part in sensors.items()}
 
 
 def open_loop(mission: Mission) -> OpenLoop:
@@ -199,10 +194,16 @@ def largest(
         low, high = high, 1.5 * high
         if high > most:
             return math.inf
+    low, high = bisected(stable, low, high, accuracy)
+    return 0.5 * (low + high)
+
+
+def bisected(stable: Callable[[float], bool], low: float, high: float, accuracy: float) -> tuple[float, float]:
+    """(A stable number, an unstable one), apart by at most a relative accuracy, from two that are farther apart."""
     while high - low > accuracy * high:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if stable(middle) else (low, middle)
-    return 0.5 * (low + high)
+    return low, high
 
 
 def axis_margins(w: Array, L: NDArray[np.complexfloating]) -> list[AxisMargins]:

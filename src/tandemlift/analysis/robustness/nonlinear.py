@@ -13,11 +13,11 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from tandemlift.analysis.linearization.claims import Claim, FlownLimit, Tier
-from tandemlift.analysis.linearization.loop_margins import AXES, calm_mission
+from tandemlift.analysis.linearization.loop_margins import AXES, bisected, calm_mission
 from tandemlift.analysis.robustness.cut_loop import DISTURBED, SURFACES, CutLoop, loop_of, parts_of
 from tandemlift.analysis.robustness.intervals import bounds
 from tandemlift.analysis.robustness.sector_bound import LoopPart, Sectors, Start, region_of, solvers, tolerated
-from tandemlift.core.errors import InputError, without_flight_warnings
+from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, check, tables_of
 from tandemlift.parts.pilot.thrust_bounds import commanded_thrusts, disturb, rotor_axes
@@ -133,8 +133,7 @@ class OffsetFlights:
         for own, real in zip(tables["vehicle"]["quadrotors"], mission.vehicle.quadrotors, strict=True):
             own |= {"lag_up": real.lag_up, "lag_down": real.lag_down, "max_speed": real.max_speed}
         tables["mission"]["duration"] = at + SETTLES
-        with without_flight_warnings():
-            plan = FlightPlan(check(tables, mission.mission.name))
+        plan = FlightPlan(check(tables, mission.mission.name, quiet=True))
         self._first, self._last = round(at / plan.dt), round((at + SETTLES) / plan.dt)
         self._stepper = Stepper(plan)
         for k in range(self._first):
@@ -160,9 +159,7 @@ class OffsetFlights:
             low, high = high, min(2.0 * high, most)
             if low == most:
                 return FlownLimit(low, math.inf, math.nan, "")
-        while high - low > ACCURACY * high:
-            middle = 0.5 * (low + high)
-            low, high = (middle, high) if self.recovers({name: middle}) else (low, middle)
+        low, high = bisected(lambda size: self.recovers({name: size}), low, high, ACCURACY)
         return FlownLimit(low, high, math.nan, "not at rest")
 
 

@@ -30,7 +30,7 @@ from tandemlift.analysis.robustness.uncertainty import (
     parameters_of,
     uncertain_tables,
 )
-from tandemlift.core.errors import InputError, without_flight_warnings
+from tandemlift.core.errors import InputError
 from tandemlift.missions import Mission, built_in, check, format_toml, load_mission, tables_of
 
 NAME, TITLE = "structured", "Structured: all parameters at once"
@@ -159,8 +159,7 @@ def worst_mission(mission: Mission, values: Values, worst: Worst) -> str:
     rest |= {"phases": {**whole["phases"], "land_start": 2.0 * end}}
     rest["mission"] = {**whole["mission"], "name": f"{name}-worst", "duration": end}
     keys = uncertain_tables(whole, values) | rest
-    with without_flight_warnings():
-        check(keys, f"{name}-worst")
+    check(keys, f"{name}-worst", quiet=True)
     if name in built_in() and load_mission(name) == mission:
         keys = {"extends": name} | {key: value for key, value in keys.items() if value != whole.get(key)}
     return (

@@ -18,7 +18,7 @@ from tandemlift.analysis.linearization.linear_model import LinearModel
 from tandemlift.analysis.linearization.linearize import linearize
 from tandemlift.analysis.linearization.loop_margins import LOWEST, NO_KINK, POINTS, WAITS, calm_mission, is_calm
 from tandemlift.analysis.robustness.structured_singular_value import Complex
-from tandemlift.core.errors import InputError, unknown, without_flight_warnings
+from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, check, tables_of
 
@@ -138,8 +138,7 @@ def calm_model(mission: Mission, values: Values, *, real: bool) -> LinearModel:
     off = {**values, "lag": 0.0, "delay": values.get("delay", 0.0) if real else 0.0}
     for wait in WAITS:
         calm, at = calm_mission(mission, lag=lag, wait=wait)
-        with without_flight_warnings():
-            calm = check(uncertain_tables(tables_of(calm), off), mission.mission.name)
+        calm = check(uncertain_tables(tables_of(calm), off), mission.mission.name, quiet=True)
         ports: Any = {"inputs": ["thrust_offsets", "disturbance_moment"], "outputs": ["rotor_thrusts", "rates"]}
         model = linearize(calm, at, **ports, kink_tolerance=NO_KINK)
         if is_calm(model):
