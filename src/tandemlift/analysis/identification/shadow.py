@@ -82,7 +82,8 @@ class LogBody:
         self._states = np.hstack([log[name].at(times) for name in (*MOTION, RATES)])
         self._readings = np.hstack(loads)  # in the order of a `PerfectReadings`
         self.state, self.readings = self._states[0].copy(), self._readings[0].copy()
-        self.flown = flown_commands(log, p.mission, times)
+        constants = [q.thrust_constant for q in p.mission.vehicle.quadrotors for _ in range(4)]
+        self.flown = flown_commands(log, np.array(constants), times)
         self._pushes = log[PUSH[0]].at(times) if PUSH[0] in log else None
         self._external, self._step = np.zeros(leaves(p.given.external)), 0
         self._sample, self._own = SampleChannels(p.sample), p.place("flight_state", "memory", "allocation", "thrusts")
@@ -162,11 +163,10 @@ def commands_of(channels: Container[str]) -> str:
     return COMMANDS if COMMANDS in channels else "rotor_thrusts"
 
 
-def flown_commands(log: Log, mission: Mission, times: Array) -> Array | None:
-    """The commanded thrusts (n, 4N) [N] at some times; of speeds, by the thrust map of the mission's rotors."""
+def flown_commands(log: Log, constants: Array, times: Array) -> Array | None:
+    """The commanded thrusts (n, 4N) [N] at some times; of speeds, by the thrust constants of the rotors (4N)."""
     if COMMANDS in log:
         return log[COMMANDS].at(times)
     if SPEED_COMMANDS not in log:
         return None
-    constants = [q.thrust_constant for q in mission.vehicle.quadrotors for _ in range(4)]
-    return np.array(constants) * log[SPEED_COMMANDS].at(times) ** 2
+    return constants * log[SPEED_COMMANDS].at(times) ** 2

@@ -233,7 +233,7 @@ class ClosedStep:
         )
 
     def at(self, point: OperatingPoint) -> tuple[Any, ...]:
-        """What a `FlightStep` is made of, from a point of the flight on: code, start, names and places."""
+        """The parts of a `FlightStep` from a point of the flight on: code, start, names and places."""
         p = self.plan
         lines = [x for values in values_under_way(self.delayed, point.ring, point.k) for x in values]
         state = np.zeros(len(self.names))

@@ -91,7 +91,7 @@ class LinearModel:
         return f"<LinearModel {self.mission} ({self.of}) at {self.time:g} s: {sizes}, sample time {self.step:g} s>"
 
     def connected(self) -> LinearModel:
-        """The same model without the states that, at this point, no input moves or no output shows.
+        """This model without the states that, at this point, no input moves or no output shows.
 
         What counts are entries other than 0, over any number of steps. From rest, outputs are the same.
         """

@@ -87,6 +87,7 @@ def linearize(
         recipe = recipe._replace(point=averaged)
         made = differentiate(recipe)
     _check_finite(recipe, made)
+    # states and outputs of the point are those of the flight; the derivatives alone take the mean lag
     kinks = [*kinks_near(recipe, made, kink_tolerance), *(_known_kinks(point) if of == "loop" else ())]
     return _model(recipe, made._replace(x0=here.x0, x1=here.x1, y0=here.y0), chosen, of, kinks)
 

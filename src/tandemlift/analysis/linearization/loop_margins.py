@@ -25,6 +25,7 @@ from tandemlift.analysis.linearization.linearize import linearize
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, check, tables_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.rotors.hover import HoverFacts
 
 AXES = ("z", "roll", "pitch", "yaw")
 LOWEST, HIGHEST, POINTS = 0.1, 3000.0, 240  # rad/s
@@ -41,6 +42,7 @@ RESTING = 0.02  # m/s and rad/s, of a calm hover
 FIRST, MOST = 1e-4, 100.0  # s, the shortest and the longest delay and lag that are tried
 RELATIVE = 1e-4  # accuracy of the results
 ERRORS = ("noise", "bias", "drift", "misalignment")  # ends of the names of sensors' keys
+SLOWEST = 5  # modes that are checked
 FINER = 10  # frequencies for each at which a response is computed
 
 
@@ -135,12 +137,21 @@ def open_loop(mission: Mission) -> OpenLoop:
     radius = float(np.abs(np.linalg.eigvals(few.A)).max())
     in_axes = replace(few, B=few.B @ vehicle.allocation(calm.allocation.weights), C=vehicle.effect @ few.C)
     in_axes = replace(in_axes, D=vehicle.effect @ few.D @ vehicle.allocation(calm.allocation.weights))
+    # short of the Nyquist frequency, beyond which samples tell nothing of what happens between them
     w = np.geomspace(LOWEST, min(HIGHEST, 0.9 * math.pi / model.step), POINTS)
-    T, h, s, eye = calm.mission.step, model.step, 1j * w, np.eye(4)
-    held = (np.expm1(-s * T) * h) / (np.expm1(-s * h) * T)  # an offset acts for a sample, a rotor's thrust for a step
+    held, eye = step_over_sample(w, calm.mission.step, model.step), np.eye(4)
     near = frequency_response(in_axes, w / (2.0 * math.pi)) - eye
-    S: NDArray[np.complexfloating] = eye + near * held[:, None, None]
+    S: NDArray[np.complexfloating] = np.asarray(eye + near * held[:, None, None], complex)
     return OpenLoop(w, np.linalg.inv(S) - eye, radius <= 1.0 + ON_CIRCLE and is_calm(model))
+
+
+def step_over_sample(w: Array, step: float, sample: float) -> NDArray[np.complexfloating]:
+    """The response (F) to an input that is held for a step [s] over that to one held for a sample [s].
+
+    Inputs of a linear model act for a sample, the thrust of a rotor and an arm for a step of the mission.
+    """
+    s = 1j * w
+    return (np.expm1(-s * step) * sample) / (np.expm1(-s * sample) * step)
 
 
 def is_calm(model: LinearModel) -> bool:
@@ -150,7 +161,7 @@ def is_calm(model: LinearModel) -> bool:
     return all(abs(motion.get(name, 0.0)) < RESTING for name in names)
 
 
-def slowest_modes(mission: Mission, lag: float, count: int = 5) -> list[Mode]:
+def slowest_modes(mission: Mission, lag: float) -> list[Mode]:
     """The least damped modes of the closed step with the mission's delay and a lag of the rotors [s].
 
     Raises:
@@ -158,7 +169,12 @@ def slowest_modes(mission: Mission, lag: float, count: int = 5) -> list[Mode]:
     """
     calm, at = calm_mission(mission, lag=lag)
     modes = modes_of(linearize(calm, at, kink_tolerance=NO_KINK).connected()).modes
-    return sorted((mode for mode in modes if mode.frequency > 0.0), key=lambda mode: mode.damping)[:count]
+    return sorted((mode for mode in modes if mode.frequency > 0.0), key=lambda mode: mode.damping)[:SLOWEST]
+
+
+def rotor_delay_and_lag(hover: HoverFacts) -> tuple[float, float]:
+    """(The delay of the rotors, the mean of their lags up and down) [s]; 0 of ideal rotors."""
+    return (hover.actuators.delay, hover.lag) if hover.actuators.model == "rotors" else (0.0, 0.0)
 
 
 def rotors_response(w: Array, delay: float, lag: float) -> NDArray[np.complexfloating]:
@@ -174,6 +190,7 @@ def is_stable(loop: OpenLoop, delay: float, lag: float) -> bool:
     eye, G = np.eye(4), rotors_response(w, delay, lag)[:, None, None]
     ratio = np.linalg.det(eye + L * G) / np.linalg.det(eye + L)
     turned = np.unwrap(np.angle(ratio))
+    # G(0) = 1, so that poles become unstable in pairs, off the real axis: each pair turns the ratio by 2π
     return bool(abs(turned[-1] - turned[0]) < math.pi)
 
 

@@ -209,7 +209,7 @@ def words(values: Values) -> str:
 
 
 def assumptions(mission: Mission, box: Mapping[str, float], widths: Mapping[str, float]) -> tuple[str, ...]:
-    """What the tier takes for granted, a sentence each."""
+    """The assumptions of the tier, a sentence each."""
     said = [
         "The loop is the linear model of a calm hover, sampled, without noise, wind, ground effect and thrust limits.",
         f"Parameters are real and constant, in a box about the mission: {words(box).replace('+', '±')}; a delay only "

@@ -144,7 +144,7 @@ def open_folder(plan: StudyPlan, path: Path) -> StudyFolder:
     """
     with extra("study", "a study"):  # before anything flies
         import pyarrow  # noqa: F401
-    check_kept(plan)
+    check_kept(plan)  # else a name that no flight has would only be missing in the table
     contents = _contents(plan)
     if (path / PLAN).exists():
         folder = StudyFolder(path)
