@@ -48,7 +48,7 @@ def write_rows(folder, numbers):
         measured = dict(zip(SHOWN, noise * (1.0 + u[0] + 2.0 * u[1] ** 2), strict=False))
         others = {f"other_{k}_m": noise[k + len(SHOWN)] for k in range(METRICS)}
         table = {**about, **varied, **said, "events": ["[]"] * count, **measured, **others, "steps": row * 0 + 12_000}
-        write_checked(pa.table(table), store.files.file(name))
+        write_checked(pa.table(table), store.files.file(name), {})
 
 
 def main():

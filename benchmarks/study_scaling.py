@@ -109,11 +109,11 @@ def overhead(rounds: int, root: Path) -> dict[str, Any]:
 
 def parts(plan: StudyPlan, file: Path) -> dict[str, float]:
     """The parts of the work for a chunk of 256 rows, one after the other: ms, and bytes."""
-    chunk = chunk_of(plan, 0, "one")
+    chunk = chunk_of(plan, 0, plan.rows_per_chunk, "one")
     template = plan.variants[0].template()
     columns = fly_chunk(chunk)
     steps: dict[str, Callable[[], Any]] = {
-        "rows of the plan": lambda: chunk_of(plan, 0, "one"),
+        "rows of the plan": lambda: chunk_of(plan, 0, plan.rows_per_chunk, "one"),
         "template": lambda: plan.variants[0].template(),
         "missions": lambda: [template.mission(row.changes) for row in chunk.rows],
         "chunk flown, columns formed": lambda: fly_chunk(chunk),

@@ -9,7 +9,7 @@ from law_values import flat, rebuilt
 
 import tandemlift as tl
 from tandemlift.analysis.linearization.linearize import linearization_plan
-from tandemlift.analysis.linearization.model_inputs import given_at
+from tandemlift.analysis.linearization.model_variables import given_at
 from tandemlift.analysis.linearization.operating_point import flown_to
 from tandemlift.analysis.linearization.period import (
     LinearizationPlan,

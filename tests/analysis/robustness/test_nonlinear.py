@@ -28,6 +28,7 @@ from tandemlift.analysis.robustness.sector_bound import (
 )
 from tandemlift.core.errors import InputError
 from tandemlift.missions import load_mission
+from tandemlift.parts.pilot.thrust_bounds import rotor_axes
 
 pytest.importorskip("cvxpy")
 scipy_signal = pytest.importorskip("scipy.signal")
@@ -149,21 +150,26 @@ def test_modes_that_rest_unseen_are_removed_and_others_refused():
 
 def test_the_switching_of_paper_tolerates_the_gain_at_which_sampling_chatters():
     """(λ₁ + λ₂/Φ) · step < 2 (`nftsmc`): for z, 200/s + 1000/s · (1 + gain), so gain < 0.8, less for ξ."""
-    mission = load_mission("paper")
+    priorities = load_mission("paper").allocation.priorities
     part = next(p for p, _ in cut_loop.parts_of(loop_of("paper"), cut_loop.SURFACES) if p.channels == (2,))
-    gain = tolerated(lambda x: region_of(part, nonlinear.sectors_of(part, mission, -x)) is not None, 4.0)
+    gain = tolerated(lambda x: region_of(part, nonlinear.sectors_of(part, priorities, -x)) is not None, 4.0)
     assert 0.7 < gain < 0.8
+
+
+def bounds_of(mission):
+    """The offsets that the loop of iris bears, with the rotors and the priorities of a mission."""
+    axes = rotor_axes(mission.vehicle, mission.allocation.weights)
+    return nonlinear.OffsetBounds(loop_of("iris"), mission.allocation.priorities, axes)
 
 
 def test_no_state_on_the_edge_of_a_region_is_lost_in_flight():
     """12 random mixtures of offsets, each on the edge of the region, with every nonlinearity and all axes at once."""
-    mission, rng = load_mission("iris"), np.random.default_rng(6)
-    parts = nonlinear.offset_parts(mission, loop_of("iris"))
+    rng, bounds = np.random.default_rng(6), bounds_of(load_mission("iris"))
     alone = {claim.subject: claim.value for claim in tier_of_iris().claims if claim.quantity == "offset recovered"}
     for i in range(12):
         named = [n for n in alone if i >= 8 or n in (PITCHES, ROLLS)[i % 2]]
         offset = {name: rng.normal() * alone[name] for name in named}
-        factor = nonlinear.farthest(mission, parts, offset)
+        factor = bounds.farthest(offset)
         assert flights_of("iris").recovers({name: factor * x for name, x in offset.items()}), (factor, offset)
 
 
@@ -187,13 +193,13 @@ def test_the_tier_of_iris_is_complete_and_its_limits_are_flown_beyond():
 
 def test_a_rotor_that_hovers_at_a_limit_is_named():
     heavy = load_mission("iris", {"vehicle.payload.mass": 2.5})
-    assert (nonlinear.thrust_room(heavy) > 0.0).all()
+    assert bounds_of(heavy).farthest({}) == math.inf  # of no offset: its rotors have room
     quadrotors = [
         q.model_copy(update={"max_speed": 900.0 if i else 1100.0}) for i, q in enumerate(heavy.vehicle.quadrotors)
     ]
     tilted = heavy.model_copy(update={"vehicle": heavy.vehicle.model_copy(update={"quadrotors": tuple(quadrotors)})})
     with pytest.raises(InputError, match=r"rotor 5 hovers at 6\.74 N, and its limits are 0 and 4\.73 N"):
-        nonlinear.thrust_room(tilted)
+        bounds_of(tilted)
 
 
 def test_a_hover_that_is_not_stable_has_a_reason_and_keeps_the_boxes():

@@ -11,7 +11,7 @@ from typing import Any
 
 from tandemlift.analysis.linearization.claims import MISSED, Claim, Tier
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import atomic_write
+from tandemlift.core.files import write_file
 
 
 @dataclass(frozen=True)
@@ -66,8 +66,7 @@ class Certificate:
 
     def save(self, path: str | Path) -> None:
         """Write it as JSON, atomically."""
-        with atomic_write(Path(path)) as partial:
-            partial.write_text(json.dumps(self.to_dict(), ensure_ascii=False, indent=1, allow_nan=False), "utf-8")
+        write_file(Path(path), json.dumps(self.to_dict(), ensure_ascii=False, indent=1, allow_nan=False))
 
 
 def _plain(claim: Claim) -> dict[str, Any]:

@@ -79,7 +79,7 @@ def linear_limit(mission: Mission, name: str, *, growing: bool, near: float | No
         found = fastest_growth(mission, name, value / factor)
         stable, value, s = (value / factor, value, s) if found is None else (stable, value / factor, found)
     while abs(value - stable) > ACCURACY * value:
-        middle = math.sqrt(value * stable)
+        middle = math.sqrt(value * stable)  # of factors, the middle is the geometric mean
         found = fastest_growth(mission, name, middle)
         stable, value, s = (middle, value, s) if found is None else (stable, middle, found)
     return LinearLimit(math.sqrt(value * stable), abs(s.imag) if math.isfinite(s.real) else 0.0)

@@ -14,7 +14,6 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from tandemlift.analysis.linearization.claims import Claim
-from tandemlift.missions import Mission
 
 
 class BodyRegion(NamedTuple):
@@ -41,9 +40,8 @@ def tolerated_speed(region: BodyRegion, mass: float) -> float:
     return region.force / math.sqrt(region.stiffness / (1.0 / region.mass + 1.0 / mass))
 
 
-def contact_claims(mission: Mission) -> Iterator[Claim]:
-    """The energy of the vehicle at the largest speed of the admittance, and the speed that each region tolerates."""
-    mass, speed = mission.hover.mass, max(mission.compliance.max_speed)
+def contact_claims(mass: float, speed: float) -> Iterator[Claim]:
+    """The energy of a vehicle [kg] at the largest speed of the admittance [m/s], and the speed of each region."""
     energy = 0.5 * mass * speed**2
     text = f"of {mass:.3g} kg at {speed:.3g} m/s, the largest speed of the admittance"
     yield Claim("energy of a contact", "", energy, "J", None, text)

@@ -40,7 +40,7 @@ class DiskMargin(NamedTuple):
 
     @property
     def gain_db(self) -> float:
-        """The same in decibels."""
+        """That factor in decibels."""
         return 20.0 * math.log10(self.gain)
 
     @property

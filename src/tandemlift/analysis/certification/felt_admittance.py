@@ -21,7 +21,7 @@ from tandemlift.analysis.certification.flown import hover_as_flown
 from tandemlift.analysis.certification.parameters import with_keys
 from tandemlift.analysis.linearization.frequency_response import frequency_response
 from tandemlift.analysis.linearization.linearize import linearize
-from tandemlift.analysis.linearization.loop_margins import NO_KINK, largest
+from tandemlift.analysis.linearization.loop_margins import NO_KINK, largest, step_over_sample
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission
@@ -76,10 +76,8 @@ def felt_admittance(mission: Mission, changes: dict[str, Any] | None = None) -> 
     model = linearize(hover, top, inputs=inputs, outputs=outputs, kink_tolerance=NO_KINK).connected()
     if np.abs(np.linalg.eigvals(model.A)).max() > 1.0 + GROWS:
         raise InputError(f"{mission.mission.name}: a push beyond the threshold makes the hover unstable")
-    T, h = hover.mission.step, model.step
-    w = np.geomspace(SLOWEST, min(FASTEST, 0.9 * math.pi / h), POINTS)
-    s = 1j * w
-    held = (np.expm1(-s * T) * h) / (np.expm1(-s * h) * T)  # the model holds a force for a sample, an arm for a step
+    w = np.geomspace(SLOWEST, min(FASTEST, 0.9 * math.pi / model.step), POINTS)
+    held = step_over_sample(w, hover.mission.step, model.step)
     x, y, z = np.add(mission.hover.vehicle.origin, (0.0, mission.person.grip, 0.0))  # the grip
     lever = np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])  # v = v_c + ω × r
     at_grip = np.hstack([np.eye(3), lever])

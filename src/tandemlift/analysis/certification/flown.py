@@ -15,7 +15,7 @@ import numpy as np
 
 from tandemlift.analysis.certification.parameters import ARM, parameter, with_keys
 from tandemlift.analysis.linearization.claims import Claim, FlownLimit, Tier
-from tandemlift.analysis.linearization.loop_margins import calm_mission
+from tandemlift.analysis.linearization.loop_margins import calm_mission, rotor_delay_and_lag, without_errors
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array
@@ -36,11 +36,11 @@ PAST = 1.05  # of a limit: the mission beside it flies beyond, where the oscilla
 
 
 class LimitTrial(NamedTuple):
-    """How the limit of a parameter is flown.
+    """The flights that look for the limit of a parameter.
 
     Attributes:
         mission: the flight with a value of the parameter; raises InputError for a value that is not allowed.
-        ended: what ended a flight's stability: "oscillation" or "lost"; "" if it is stable.
+        ended: the end of a flight's stability: "oscillation" or "lost"; "" if it is stable.
         nominal: the value in the mission.
     """
 
@@ -50,7 +50,7 @@ class LimitTrial(NamedTuple):
 
 
 def trial_of(mission: Mission, name: str) -> LimitTrial:
-    """How the limit of a parameter of a mission is flown.
+    """The flights that look for the limit of a parameter of a mission.
 
     Raises:
         InputError: no parameter has this name.
@@ -109,13 +109,12 @@ def hover_as_flown(mission: Mission) -> tuple[Mission, float]:
     """(A calm hover of a mission with its own rotors, the time [s] at which it is calm); sensors do not round."""
     calm, at = calm_mission(mission)
     own, t = tables_of(mission), tables_of(calm)
-    real = mission.actuators.model == "rotors"
-    lag = mission.hover.lag if real else 0.0
-    if real:
+    _, lag = rotor_delay_and_lag(mission.hover)
+    if mission.actuators.model == "rotors":
         t["actuators"] = own["actuators"]
     for q, original in zip(t["vehicle"]["quadrotors"], own["vehicle"]["quadrotors"], strict=True):
         q |= {"max_speed": original["max_speed"], "lag_up": lag, "lag_down": lag}
-    t["sensors"] = _without_resolution(t["sensors"])
+    t["sensors"] = without_errors(t["sensors"], ("resolution",))
     return check(t, mission.mission.name, quiet=True), at
 
 
@@ -126,7 +125,9 @@ def kicked(mission: Mission, changes: Mapping[str, Any]) -> Mission:
         InputError: the changed mission is invalid.
     """
     hover, at = hover_as_flown(mission)
-    pushes = [{"force": [PUSH] * 3, "time": at + 3.0 * LASTS, "sigma": LASTS, "point": _grip(mission)}]
+    # at the first quadrotor, so that the push turns the vehicle about all axes
+    place = np.add(mission.hover.vehicle.origin, mission.vehicle.quadrotors[0].position).tolist()
+    pushes = [{"force": [PUSH] * 3, "time": at + 3.0 * LASTS, "sigma": LASTS, "point": place}]
     times = {"mission.duration": at + SETTLES + LONG + WATCHED, "mission.log_interval": LOGGED}
     return with_keys(hover, {"pushes": pushes, **times, **changes})
 
@@ -148,65 +149,42 @@ def held(mission: Mission, stiffness: float, changes: Mapping[str, Any] | None =
     return with_keys(hover, {"person": person, **sensitive, **times, **(changes or {})})
 
 
-def _grip(mission: Mission) -> list[float]:
-    """The first quadrotor, from the centre of mass: a push there turns the vehicle about all axes."""
-    vehicle = mission.hover.vehicle
-    return np.add(vehicle.origin, mission.vehicle.quadrotors[0].position).tolist()
-
-
-def _without_resolution(sensors: dict[str, Any]) -> dict[str, Any]:
-    """Sensors that do not round."""
-    return {
-        name: {key: 0.0 if key.endswith("resolution") else value for key, value in part.items()}
-        if isinstance(part, dict)
-        else part
-        for name, part in sensors.items()
-    }
-
-
 def motions(flight: Flight) -> Array:
     """The rates of turn [rad/s] and the climb [m/s] (T, 4) of a flight."""
     return np.column_stack([flight["rates"], flight["velocity"][:, 2]])
 
 
+def sizes_of_motion(flight: Flight) -> tuple[Array, Array, Array]:
+    """Sizes (4,) of the motions: root mean squares about the mean after the push, and at the end; the largest value."""
+    motion, end = motions(flight), flight.time[-1]
+    first, last = (
+        motion[(flight.time >= start) & (flight.time <= start + WATCHED)].std(axis=0)
+        for start in (end - LONG - WATCHED, end - WATCHED)
+    )
+    return first, last, np.abs(motion[flight.time >= end - LONG - WATCHED - SETTLES]).max(axis=0)
+
+
 def stability(flight: Flight) -> str:
-    """What ended the stability of a kicked flight: "oscillation" or "lost"; "" if it is stable."""
+    """The end of the stability of a kicked flight: "oscillation" or "lost"; "" if it is stable."""
     if flight.outcome in FAILURES or flight.failure:
         return LOST
-    first, last = windows(flight)
-    floor = SMALL * np.abs(motions(flight)[flight.time >= flight.time[-1] - LONG - WATCHED - SETTLES]).max(axis=0)
-    return OSCILLATES if np.any((last > PERSISTS * first) & (last > floor)) or last.max() > LARGE else ""
+    first, last, most = sizes_of_motion(flight)
+    return OSCILLATES if np.any((last > PERSISTS * first) & (last > SMALL * most)) or last.max() > LARGE else ""
 
 
 def stability_in_hand(flight: Flight) -> str:
-    """What ended the stability of a flight in an arm's hand, whose limits keep an oscillation from growing on."""
+    """The end of stability, as of `stability`, in an arm's hand, whose limits keep an oscillation from growing on."""
     if flight.outcome in FAILURES or flight.failure:
         return LOST
-    motion = np.abs(motions(flight)).max(axis=1)[flight.time >= flight.time[-1] - LONG - WATCHED - SETTLES]
-    first, last = windows(flight)
-    grows = np.any((last > PERSISTS * first) & (last > SMALL * motion.max()))
-    return OSCILLATES if grows or motion.max() > LARGE else ""
-
-
-def windows(flight: Flight) -> tuple[Array, Array]:
-    """Sizes (4,) of the motions after the push, and at the end."""
-    motion, end = motions(flight), flight.time[-1]
-    first, last = (
-        _sizes(motion[(flight.time >= start) & (flight.time <= start + WATCHED)])
-        for start in (end - LONG - WATCHED, end - WATCHED)
-    )
-    return first, last
-
-
-def _sizes(motion: Array) -> Array:
-    """The root mean square of each motion about its mean."""
-    return motion.std(axis=0)
+    first, last, each = sizes_of_motion(flight)
+    most = each.max()
+    return OSCILLATES if np.any((last > PERSISTS * first) & (last > SMALL * most)) or most > LARGE else ""
 
 
 def frequency_of(flight: Flight) -> float:
     """The frequency [rad/s] of the largest motion of the last window, by its crossings of its mean."""
     motion = motions(flight)[flight.time >= flight.time[-1] - WATCHED]
-    values = motion[:, int(np.argmax(_sizes(motion)))]
+    values = motion[:, int(np.argmax(motion.std(axis=0)))]
     values = values - values.mean()
     crossings = np.flatnonzero((values[:-1] < 0.0) != (values[1:] < 0.0))
     if len(crossings) < 3:
@@ -222,13 +200,10 @@ def with_limits(tier: Tier, mission: Mission, fly: bool) -> Tier:
             trial, name = trial_of(mission, claim.parameter), f"limits/{claim.slug}.toml"
             files[name] = format_toml(tables_of(_mission_beyond(trial, claim.limit)))
             flown = flown_limit(trial, claim.limit) if fly else None
-            claim = claim._replace(command=f"tandemlift run {name}", nominal=_nominal(mission, claim), flown=flown)
+            nominal = parameter(claim.parameter).nominal(mission)
+            claim = claim._replace(command=f"tandemlift run {name}", nominal=nominal, flown=flown)
         claims.append(claim)
     return replace(tier, claims=tuple(claims), files=files)
-
-
-def _nominal(mission: Mission, claim: Claim) -> float:
-    return parameter(claim.parameter).nominal(mission)
 
 
 def _mission_beyond(trial: LimitTrial, limit: float) -> Mission:

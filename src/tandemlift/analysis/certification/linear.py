@@ -5,16 +5,16 @@ The loop is that of a calm hover, cut at the rotors, sampled and delayed as flow
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.analysis.certification.changed_models import LinearLimit, linear_limit
+from tandemlift.analysis.certification.changed_models import linear_limit
 from tandemlift.analysis.certification.disk_margins import disk_margin, disk_sizes
-from tandemlift.analysis.certification.parameters import PARAMETERS
 from tandemlift.analysis.linearization.claims import Claim, Tier
 from tandemlift.analysis.linearization.loop_margins import (
     AXES,
@@ -23,6 +23,7 @@ from tandemlift.analysis.linearization.loop_margins import (
     is_stable,
     largest,
     open_loop,
+    rotor_delay_and_lag,
     rotors_response,
     single_loop,
 )
@@ -82,8 +83,9 @@ def loop_as_flown(mission: Mission) -> LoopAsFlown:
         InputError: the controller is plain Python, or the calm flight is lost.
     """
     vehicle, weights = mission.hover.vehicle, mission.allocation.weights
-    delay, lag = (PARAMETERS[name].nominal(mission) for name in ("delay", "lag"))
-    return LoopAsFlown(open_loop(mission), delay, lag, (vehicle.allocation(weights), vehicle.effect))
+    return LoopAsFlown(
+        open_loop(mission), *rotor_delay_and_lag(mission.hover), (vehicle.allocation(weights), vehicle.effect)
+    )
 
 
 def linear_tier(mission: Mission) -> Tier:
@@ -141,27 +143,26 @@ def rotor_limits(loop: LoopAsFlown) -> Iterator[Claim]:
         yield Claim(f"{name} limit", "", 1e3 * at, "ms", None, text, frequency, parameter=name, limit=at)
 
 
-def changed_limits(mission: Mission, names: Iterable[str] = CHANGED) -> Iterator[Claim]:
-    """Mass and inertias at which a mission's hover is no longer stable, by a linear model of each value."""
-    for name in names:
-        for bound, growing in (("least", False), ("largest", True)):
-            yield _changed_limit(mission, name, bound, linear_limit(mission, name, growing=growing))
+def changed_limits(mission: Mission) -> Iterator[Claim]:
+    """Mass and inertias at which a mission's hover is no longer stable, by a linear model of each value.
 
-
-def _changed_limit(mission: Mission, name: str, bound: str, found: LinearLimit) -> Claim:
-    """The limit of a mass or an inertia; that of the largest mass may be the rotors' thrust."""
-    axis, _, kind = name.rpartition(" ")
-    at, text = found.value, f"times the pilot's value; it oscillates at {found.frequency:.3g} rad/s"
+    The limit of the largest mass may be the rotors' thrust.
+    """
     lifted = mission.hover.lift / mission.hover.vehicle.weight
-    if not 0.0 < at < math.inf:
-        return Claim(f"{bound} {kind}", axis, at, "1", text="no limit within a factor of 50")
-    if name == "mass" and at > lifted:
-        at, found = lifted, found._replace(frequency=math.nan)
-        text = "times the pilot's value: all that the rotors lift"
-    if name == "mass" and at < 1.0 and mission.pilot.guidance == "interactive":
-        least = min(mission.admittance.threshold)
-        text += f"; a push of more than {least:g} N, the threshold, may start an oscillation before: of the admittance"
-    return Claim(f"{bound} {kind}", axis, at, "1", None, text, found.frequency, parameter=name, limit=at)
+    for name, growing in itertools.product(CHANGED, (False, True)):
+        axis, _, kind = name.rpartition(" ")
+        quantity = f"{'largest' if growing else 'least'} {kind}"
+        at, frequency = linear_limit(mission, name, growing=growing)
+        if not 0.0 < at < math.inf:
+            yield Claim(quantity, axis, at, "1", text="no limit within a factor of 50")
+            continue
+        text = f"times the pilot's value; it oscillates at {frequency:.3g} rad/s"
+        if name == "mass" and at > lifted:
+            at, frequency, text = lifted, math.nan, "times the pilot's value: all that the rotors lift"
+        if name == "mass" and at < 1.0 and mission.pilot.guidance == "interactive":
+            push = f"a push of more than {min(mission.admittance.threshold):g} N, the threshold"
+            text += f"; {push}, may start an oscillation before: of the admittance"
+        yield Claim(quantity, axis, at, "1", None, text, frequency, parameter=name, limit=at)
 
 
 def oscillation(w: Array, L: NDArray[np.complexfloating]) -> tuple[str, float]:

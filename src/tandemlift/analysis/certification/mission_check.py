@@ -12,6 +12,7 @@ from tandemlift.analysis.linearization.loop_margins import (
     is_stable,
     largest,
     open_loop,
+    rotor_delay_and_lag,
     rotors_response,
     slowest_modes,
 )
@@ -76,8 +77,7 @@ def check(mission: MissionLike) -> tuple[CheckResult, ...]:
             "the hover is unstable even without delay and lag of the rotors: see what fails above, or lower the gains"
         )
         return *results, noted("loop", text, verdict=FAILS)
-    real = mission.actuators.model == "rotors"
-    delay, lag = (mission.actuators.delay, mission.hover.lag) if real else (0.0, 0.0)
+    delay, lag = rotor_delay_and_lag(mission.hover)
     limits = (*results, *delay_and_lag_limits(loop, delay, lag))
     if not is_stable(loop, delay, lag):
         return limits

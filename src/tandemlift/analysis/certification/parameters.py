@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from tandemlift.analysis.linearization.loop_margins import AXES, rotor_delay_and_lag
 from tandemlift.core.errors import unknown
 from tandemlift.missions import Mission, check, tables_of
 from tandemlift.missions.changes import changed_tables
 
 ARM = "arm stiffness"
-AXES = ("z", "roll", "pitch", "yaw")
 
 
 class UncertainParameter(NamedTuple):
@@ -47,20 +47,13 @@ def _scale_of(axis: int) -> Callable[[Mission], float]:
     return lambda mission: mission.plant.inertia_scale[axis]
 
 
-def _is_real(mission: Mission) -> bool:
-    return mission.actuators.model == "rotors"
-
-
 PARAMETERS = {
     p.name: p
     for p in (
         UncertainParameter(
-            "delay",
-            "s",
-            lambda m: m.actuators.delay if _is_real(m) else 0.0,
-            lambda m, x: {"actuators.delay": x},
+            "delay", "s", lambda m: rotor_delay_and_lag(m.hover)[0], lambda m, x: {"actuators.delay": x}
         ),
-        UncertainParameter("lag", "s", lambda m: m.hover.lag if _is_real(m) else 0.0, _lag_keys),
+        UncertainParameter("lag", "s", lambda m: rotor_delay_and_lag(m.hover)[1], _lag_keys),
         UncertainParameter("mass", "1", lambda m: m.plant.mass_scale, lambda m, x: {"plant.mass_scale": x}),
         *(UncertainParameter(f"{axis} inertia", "1", _scale_of(i), _inertia(i)) for i, axis in enumerate(AXES[1:])),
         UncertainParameter(ARM, "N/m", lambda m: m.person.stiffness, lambda m, x: {"person.stiffness": x}),

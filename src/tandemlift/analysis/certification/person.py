@@ -81,7 +81,8 @@ def person_tier(mission: Mission, box: ArmBox, *, fly: bool = False) -> Tier:
         felt = felt_admittance(mission)
     except InputError as error:
         return Tier("person", TITLE, ASSUMPTIONS, reason=f"there is no linear model: {error}")
-    claims = (*_passivity(felt), *_arms(mission, felt, box), *contact_claims(mission))
+    contact = contact_claims(mission.hover.mass, max(mission.compliance.max_speed))
+    claims = (*_passivity(felt), *_arms(mission, felt, box), *contact)
     drawn = admittance_map(mission)
     curves = {
         "frequency": felt.w.tolist(),

@@ -21,28 +21,24 @@ from tandemlift.analysis.studies.execution.random_flights import (
     probability_bound,
     random_flights,
 )
-from tandemlift.core.types import Progress
 from tandemlift.missions import Mission
 
 TITLE = "Statistics: failures among random flights"
 FLIGHTS, SHOWN = 300, 20  # flights; rows of failures that a sentence names
 
 
-def statistics_tier(
-    mission: Mission, folder: Path, flights: int = FLIGHTS, *, progress: Progress | None = None
-) -> Tier:
+def statistics_tier(mission: Mission, folder: Path, flights: int = FLIGHTS) -> Tier:
     """The tier of statistics; flights that the folder already holds are not flown again.
 
     Args:
         mission: to be flown.
         folder: of the study; the mission is written beside it.
         flights: number of flights.
-        progress: called with (flights flown, flights in all).
 
     Raises:
         InputError: the folder holds another study, or an optional package is missing (extras: certify, study).
     """
-    rows = random_flights(mission, folder, flights, progress)
+    rows = random_flights(mission, folder, flights)
     assumptions = (
         f"Drawn for each flight: mass within ±{100 * MASS:g} %, inertia about each axis within ±{100 * INERTIA:g} %, "
         f"{1e3 * DELAY:g} ms of further delay with real rotors, the seed of all noise, and the person if one leads.",

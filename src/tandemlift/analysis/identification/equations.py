@@ -53,7 +53,7 @@ class LogInSearch:
 
     @property
     def windows(self) -> FlightWindows:
-        """Of the log."""
+        """The windows of the log."""
         return self.predictor.windows
 
 
@@ -80,7 +80,7 @@ class Estimate:
 
     @property
     def turns(self) -> Array:
-        """Of the joints' sensors (N, 3)."""
+        """The rotation vectors by which the axes of the joints' sensors are turned (N, 3) [rad]."""
         return self.fixed[3:].reshape(-1, 3)
 
 

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -157,9 +157,15 @@ def promised_by(flight: Flight, mission: Mission) -> tuple[Row, ...]:
     return tuple(row for row in (*found.whole, *found.rows) if PROMISED_KEY.fullmatch(row.key))
 
 
-def push_rows(mission: Mission, begin: float, force: float) -> list[dict[str, Any]]:
-    """Pushes to and fro along x, y and z; and across the arm to the outermost quadrotor, amid it, which turns."""
-    outermost = max((q.position for q in mission.vehicle.quadrotors), key=lambda p: math.hypot(p[0], p[1]))
+def push_rows(quadrotors: Iterable[Sequence[float]], begin: float, force: float) -> list[dict[str, Any]]:
+    """Pushes to and fro along x, y and z; and across the arm to the outermost quadrotor, amid it, which turns.
+
+    Args:
+        quadrotors: their positions [m].
+        begin: of the pushes [s].
+        force: of each [N].
+    """
+    outermost = max(quadrotors, key=lambda p: math.hypot(p[0], p[1]))
     x, y, size = 0.5 * outermost[0], 0.5 * outermost[1], 0.5 * math.hypot(outermost[0], outermost[1])
     ways = [([force * (i == axis) for i in range(3)], [0.0] * 3) for axis in range(3)]
     if size > 0.0:
@@ -270,7 +276,7 @@ def excited_tables(mission: Mission, time: float, room: Sequence[float], push: f
         begin += e.tare_duration if e.tare == "hover" else 0.0
         begin = max(begin, e.tare_start + e.tare_duration if e.tare == "at-time" and e.tare_start is not None else 0.0)
     begin = math.ceil(begin + SETTLES)
-    t["pushes"] = push_rows(mission, begin + time, push) if push else []
+    t["pushes"] = push_rows([q.position for q in mission.vehicle.quadrotors], begin + time, push) if push else []
     lands = begin + time + SETTLES + PUSH_EVERY * len(t["pushes"])
     t["mission"] |= {"name": f"{mission.mission.name}-excited", "duration": lands + p.land_duration + SETTLES}
     t["phases"] |= {"land_start": lands}

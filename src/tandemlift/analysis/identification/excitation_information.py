@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from tandemlift.analysis.linearization.frequency_response import frequency_response
 from tandemlift.analysis.linearization.linearize import linearize
-from tandemlift.analysis.linearization.loop_margins import NO_KINK, calm_mission
+from tandemlift.analysis.linearization.loop_margins import NO_KINK, calm_mission, rotors_response
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.missions import Mission, check, tables_of
@@ -90,16 +90,18 @@ def excited_hover(mission: Mission, frequencies: Array) -> ExcitedHover:
     calm, at = calm_mission(mission, lag=hover.lag)
     mixing = hover.vehicle.allocation(hover.allocation.weights)
     s = 2j * math.pi * frequencies
-    rotor = rotor_response(mission, s)
+    # a command is held over a step, and read after it
+    rotor = rotors_response(2.0 * math.pi * frequencies, mission.actuators.delay + mission.mission.step, hover.lag)
     loop = linearize(calm, at, inputs=["thrust_offsets"], outputs=MOTION, kink_tolerance=NO_KINK).connected()
     motion = frequency_response(loop, frequencies) @ mixing * rotor[:, None, None]
     body = body_response(calm, at, frequencies)
     # the thrusts that turn and lift the body as the loop does; those of the loop's model are of a later time
     moved = [5, 9, 10, 11]  # velocity z, rates
     thrusts = mixing @ np.linalg.solve(body[:, moved] @ mixing, motion[:, moved])
-    gain = readings(body, s, calm) @ thrusts  # of the readings by the logarithm of the thrust constant
+    lever = np.array(hover.vehicle.payload_center)
+    gain = readings(body, s, lever) @ thrusts  # of the readings by the logarithm of the thrust constant
     slopes = [
-        readings((body_response(deviating(calm, p, STEP), at, frequencies) - body) / STEP, s, calm) @ thrusts
+        readings((body_response(deviating(calm, p, STEP), at, frequencies) - body) / STEP, s, lever) @ thrusts
         for p in PARAMETERS
         if p.key
     ]
@@ -109,22 +111,16 @@ def excited_hover(mission: Mission, frequencies: Array) -> ExcitedHover:
     return ExcitedHover(frequencies, motion, body @ mixing, thrusts, information)
 
 
-def rotor_response(mission: Mission, s: Frequencies) -> Frequencies:
-    """The response of a rotor's thrust to its command (F) at s = jω, which is held over a step and read after it."""
-    return np.exp(-s * (mission.actuators.delay + mission.mission.step)) / (1.0 + s * mission.hover.lag)
-
-
 def body_response(calm: Mission, at: float, frequencies: Array) -> Responses:
     """The responses of `MOTION` of the body alone to the thrust of each rotor (F × 12 × 4N)."""
     model = linearize(calm, at, of="body", inputs=["rotor_thrusts"], outputs=MOTION, kink_tolerance=NO_KINK)
     return frequency_response(model, frequencies)
 
 
-def readings(motion: Responses, s: Frequencies, mission: Mission) -> Responses:
-    """Rates, specific force at the payload's origin, position, Euler angles (F × 12 × …) of a motion about hover."""
+def readings(motion: Responses, s: Frequencies, lever: Array) -> Responses:
+    """Rates, specific force at a lever from the centre of mass, position, Euler angles (F × 12 × …) of a motion."""
     position, velocity, euler, rates = np.split(motion, 4, axis=1)
     turning = s[:, None, None] * rates
-    lever = np.array(mission.hover.vehicle.payload_center)
     tilted = GRAVITY * np.stack([-euler[:, 1], euler[:, 0], 0.0 * euler[:, 2]], axis=1)
     force = s[:, None, None] * velocity + tilted + np.cross(turning, lever[None, :, None], axis=1)
     return np.concatenate([rates, force, position, euler], axis=1)

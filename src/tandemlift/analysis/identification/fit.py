@@ -76,7 +76,7 @@ class VehicleSearch(Linearisation):
         e.q = e.q + np.clip(step[:P], -1.0, 1.0)
         e.fixed = e.fixed + step[P : P + K]
         e.biases = e.biases + step[P + K :].reshape(e.biases.shape)
-        for part, (offset, matrix) in zip(self.parts, normal.back, strict=True):
+        for part, (offset, matrix) in zip(self.parts, normal.back, strict=True):  # the starts, which were eliminated
             own = step[self.places(part)]
             part.starts = moved_starts(part.starts, offset - (matrix @ own[..., None])[..., 0])
 

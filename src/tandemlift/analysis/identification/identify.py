@@ -198,7 +198,7 @@ def _results(
 def _predicted(
     windows: list[FlightWindows], vehicle: Unknowns, search: VehicleSearch, fixed: Array | None
 ) -> dict[str, Any]:
-    """How far a vehicle predicts windows that were not used, by stream: root mean squares over the noise.
+    """The errors of a vehicle's predictions of windows that were not used, by stream: root mean squares over the noise.
 
     Starts of the windows and biases are found; errors of sensors that stay, too, where `fixed` does not have them.
     """

@@ -1,4 +1,4 @@
-"""What the data say of an estimate: intervals, what was not excited, what cannot be told apart, whiteness, prediction.
+"""Judgement of an estimate by the data: intervals, excitation, correlations, whiteness of residuals, prediction.
 
 The covariance is H⁻¹ (Σ λ_c H_c + Λ) H⁻¹ + B: H the information of the data and of the priors Λ, H_c that of one
 stream, λ_c ≥ 1 the factor by which the autocorrelation of its residuals raises the variance of a mean (Newey and West,
@@ -29,7 +29,7 @@ SCALED = ("kg", "kg m²", "N/(rad/s)²", "m²")  # units with the scale of force
 
 
 class Whiteness(NamedTuple):
-    """Of the residuals of a stream: autocorrelation over lags of blocks, its bound for white noise, the factor λ."""
+    """Whiteness of the residuals of a stream: autocorrelation over lags of blocks, its bound if white, the factor λ."""
 
     autocorrelation: tuple[float, ...]
     bound: float
@@ -42,7 +42,7 @@ class Whiteness(NamedTuple):
 
 
 class Covariance(NamedTuple):
-    """Of the coordinates (P, P): with autocorrelation, and the Cramér-Rao bound."""
+    """The covariance of the coordinates (P, P): with autocorrelation, and the Cramér-Rao bound."""
 
     covariance: Array
     bound: Array
@@ -170,7 +170,7 @@ def remarks_on(
     found: Sequence[Row],
     search: VehicleSearch,
 ) -> list[str]:
-    """What the data could not tell, in sentences."""
+    """Sentences about what the data could not tell."""
     said, still = list[str](), [row.key for row in found if not row.excited]
     if not scale_is_known(unknowns, search.estimate.q, information):
         said.append(

@@ -1,4 +1,4 @@
-"""What sensors would have read in windows of a log, for a vehicle with certain numbers, and the derivatives.
+"""Predictions of the sensors' readings in windows of a log, for a vehicle with certain numbers; their derivatives.
 
 Predictions are formed in every step; their derivatives in blocks of steps, under the mean command of a block. That
 changes the derivatives by less than 1 %, and an estimate from exact predictions by nothing but its efficiency.
@@ -64,7 +64,7 @@ class Models(NamedTuple):
 
 
 class PredictedDerivatives(NamedTuple):
-    """Of predictions in blocks, with the predictions; of the attitude, turns about body axes.
+    """The derivatives of predictions in blocks, and the predictions; those of the attitude are turns about body axes.
 
     Attributes:
         base: predictions by stream (W, blocks + 1, width).

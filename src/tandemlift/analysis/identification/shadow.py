@@ -13,14 +13,14 @@ from __future__ import annotations
 import warnings
 from collections.abc import Container
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
 from tandemlift.analysis.identification.windows import check_columns
+from tandemlift.analysis.linearization.loop_margins import ERRORS, without_errors
 from tandemlift.analysis.logs.checks import check_log
 from tandemlift.analysis.logs.log import COMMANDS, FLOWN_COMMANDS, IMU, JOINTS, MOTION, PUSH, SOON, SPEED_COMMANDS, Log
-from tandemlift.core.errors import FlightWarning, InputError, without_flight_warnings
+from tandemlift.core.errors import FlightWarning, InputError
 from tandemlift.core.types import Array, Progress, flat, leaves, unflat
 from tandemlift.missions import Mission, MissionLike, check, merge, mission_of, tables_of
 from tandemlift.simulation.fly import Flight
@@ -33,7 +33,6 @@ RATES = IMU[1]
 ELSEWHERE = 0.5  # m: a log that begins farther from the mission's start is of another flight
 SPARSE = 0.8  # of the mission's rate: with fewer samples the estimators take one sample for several
 HOLDERS = ((("readings",), ()), (("sensing",), ("reading",)))  # of the last readings, in a flight's state
-ERRORS = ("noise", "bias", "drift", "resolution", "misalignment")  # keys of sensors, at the end of their names
 
 
 def shadow(log: Log, mission: MissionLike, *, progress: Progress | None = None) -> Flight:
@@ -83,7 +82,8 @@ class LogBody:
         self._states = np.hstack([log[name].at(times) for name in (*MOTION, RATES)])
         self._readings = np.hstack(loads)  # in the order of a `PerfectReadings`
         self.state, self.readings = self._states[0].copy(), self._readings[0].copy()
-        self.flown = flown_commands(log, p.mission, times)
+        constants = [q.thrust_constant for q in p.mission.vehicle.quadrotors for _ in range(4)]
+        self.flown = flown_commands(log, np.array(constants), times)
         self._pushes = log[PUSH[0]].at(times) if PUSH[0] in log else None
         self._external, self._step = np.zeros(leaves(p.given.external)), 0
         self._sample, self._own = SampleChannels(p.sample), p.place("flight_state", "memory", "allocation", "thrusts")
@@ -142,9 +142,9 @@ def plan_of(log: Log, mission: Mission) -> FlightPlan:
     step = mission.mission.step
     duration = int(log.end / step + SOON) * step
     calm = {"mission": {"duration": duration}, "pushes": [], "sensor_faults": [], "person": {"model": "none"}}
-    with without_flight_warnings():
-        mission = check(merge(tables_of(mission), calm))
-        p, exact = (FlightPlan(m, interactive=PUSH[0] in log) for m in (mission, without_errors(mission)))
+    tables = merge(tables_of(mission), calm)
+    exact_tables = {**tables, "sensors": without_errors(tables["sensors"], (*ERRORS, "resolution"))}
+    p, exact = (FlightPlan(check(t, quiet=True), interactive=PUSH[0] in log) for t in (tables, exact_tables))
     numbers = np.array(flat(p.model._replace(sensors=exact.model.sensors)))
     for device, names in (("imu", (*IMU, *JOINTS)), ("motion", MOTION), ("joints", JOINTS)):
         for name in (n for n in names if n in log):
@@ -163,25 +163,10 @@ def commands_of(channels: Container[str]) -> str:
     return COMMANDS if COMMANDS in channels else "rotor_thrusts"
 
 
-def flown_commands(log: Log, mission: Mission, times: Array) -> Array | None:
-    """The commanded thrusts (n, 4N) [N] at some times; of speeds, by the thrust map of the mission's rotors."""
+def flown_commands(log: Log, constants: Array, times: Array) -> Array | None:
+    """The commanded thrusts (n, 4N) [N] at some times; of speeds, by the thrust constants of the rotors (4N)."""
     if COMMANDS in log:
         return log[COMMANDS].at(times)
     if SPEED_COMMANDS not in log:
         return None
-    constants = [q.thrust_constant for q in mission.vehicle.quadrotors for _ in range(4)]
-    return np.array(constants) * log[SPEED_COMMANDS].at(times) ** 2
-
-
-def without_errors(mission: Mission) -> Mission:
-    """A mission whose sensors have no errors."""
-
-    def exact(value: Any) -> Any:
-        if isinstance(value, list):
-            return [exact(part) for part in value]
-        if not isinstance(value, dict):
-            return value
-        return {name: 0.0 if name.endswith(ERRORS) else exact(part) for name, part in value.items()}
-
-    tables = tables_of(mission)
-    return check({**tables, "sensors": exact(tables["sensors"])})
+    return constants * log[SPEED_COMMANDS].at(times) ** 2

@@ -1,4 +1,4 @@
-"""What models predict of a mission: tiers of claims, each tier with its assumptions first.
+"""Predictions of models of a mission: tiers of claims, each tier with its assumptions first.
 
 A claim is a number, its bar and, where flights can confirm it, the parameter whose limit it predicts.
 """

@@ -9,11 +9,11 @@ import numpy as np
 
 from tandemlift.analysis.linearization.kinks import Kink, kinks_near
 from tandemlift.analysis.linearization.linearize import linearization_plan
+from tandemlift.analysis.linearization.model_variables import outputs_from
 from tandemlift.analysis.linearization.operating_point import OperatingPoint, flown_to
 from tandemlift.analysis.linearization.period import delayed_numbers, differentiate, values_under_way
 from tandemlift.analysis.linearization.step_derivative import REFINED
 from tandemlift.analysis.linearization.step_graph import StepGraph, leaf_names
-from tandemlift.analysis.linearization.variables import outputs_from
 from tandemlift.compiler.machine_code.differentiated import inlined
 from tandemlift.compiler.machine_code.iterated import IteratedStep, StepForm
 from tandemlift.compiler.machine_code.jax_step import JaxStep
@@ -233,7 +233,7 @@ class ClosedStep:
         )
 
     def at(self, point: OperatingPoint) -> tuple[Any, ...]:
-        """What a `FlightStep` is made of, from a point of the flight on: code, start, names and places."""
+        """The parts of a `FlightStep` from a point of the flight on: code, start, names and places."""
         p = self.plan
         lines = [x for values in values_under_way(self.delayed, point.ring, point.k) for x in values]
         state = np.zeros(len(self.names))

@@ -91,13 +91,11 @@ class LinearModel:
         return f"<LinearModel {self.mission} ({self.of}) at {self.time:g} s: {sizes}, sample time {self.step:g} s>"
 
     def connected(self) -> LinearModel:
-        """The same model without the states that, at this point, no input moves or no output shows.
+        """This model without the states that, at this point, no input moves or no output shows.
 
         What counts are entries other than 0, over any number of steps. From rest, outputs are the same.
         """
-        moved = reachable(self.A != 0.0, (self.B != 0.0).any(axis=1))
-        shown = reachable((self.A != 0.0).T, (self.C != 0.0).any(axis=0))
-        kept = np.flatnonzero(moved & shown)
+        kept = connecting_states(self.A, self.B, self.C)
         x0, u0, y0, x1 = self.point
         return replace(
             self,
@@ -168,6 +166,12 @@ class LinearModel:
                 name = re.sub(r"\W", "_", f"{path.stem}_plots", flags=re.ASCII)
                 script = (files("tandemlift") / "data" / "linear_model.m").read_text("utf-8")
                 write_file(path.with_name(f"{name}.m"), script.replace("@FILE@", path.name).replace("@NAME@", name))
+
+
+def connecting_states(A: Array, B: Array, C: Array) -> NDArray[np.intp]:
+    """The places of the states that an input moves and an output shows, over any number of steps."""
+    moved = reachable(A != 0.0, (B != 0.0).any(axis=1))
+    return np.flatnonzero(moved & reachable((A != 0.0).T, (C != 0.0).any(axis=0)))
 
 
 def reachable(steps: NDArray[np.bool_], start: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from tandemlift.analysis.linearization.kinks import Kink, kinks_near, law_name
 from tandemlift.analysis.linearization.linear_model import LinearizationPoint, LinearModel
-from tandemlift.analysis.linearization.model_inputs import given_at, input_columns, operating_values, push_sum
+from tandemlift.analysis.linearization.model_variables import Outputs, given_at, input_columns, outputs_from, push_sum
 from tandemlift.analysis.linearization.operating_point import (
     OperatingPoint,
     as_it_stands,
@@ -21,7 +21,6 @@ from tandemlift.analysis.linearization.operating_point import (
 )
 from tandemlift.analysis.linearization.period import LinearizationPlan, PeriodDerivative, delayed_numbers, differentiate
 from tandemlift.analysis.linearization.step_graph import step_graph
-from tandemlift.analysis.linearization.variables import Outputs, outputs_from
 from tandemlift.core.errors import InputError, shown, unknown
 from tandemlift.core.types import Array, flat, unflat
 from tandemlift.core.vector import Absent, Quat
@@ -88,6 +87,7 @@ def linearize(
         recipe = recipe._replace(point=averaged)
         made = differentiate(recipe)
     _check_finite(recipe, made)
+    # states and outputs of the point are those of the flight; the derivatives alone take the mean lag
     kinks = [*kinks_near(recipe, made, kink_tolerance), *(_known_kinks(point) if of == "loop" else ())]
     return _model(recipe, made._replace(x0=here.x0, x1=here.x1, y0=here.y0), chosen, of, kinks)
 
@@ -204,13 +204,16 @@ def shown_lags(lags: list[tuple[float, float]]) -> str:
 
 
 def _inputs_at(r: LinearizationPlan, made: PeriodDerivative) -> Array:
+    """The values of the inputs at the point; the step decides the thrust of a rotor."""
     plan, t = r.point.plan, r.point.k * r.point.plan.dt
-    attitude = _attitude(r.point)
-    moment = push_moment(push_sum(plan.tables, t), attitude)
-    values = operating_values(r.inputs, given_at(plan.tables, t, plan.dt), r.point.numbers.tolist(), moment)
     thrusts = made.steps[0].nodes.values_of(r.graph.thrusts)
-    seeds = [column.seeds[0] for column in r.inputs]
-    return np.array([thrusts[i] if kind == "thrust" else v for (kind, i, _), v in zip(seeds, values, strict=True)])
+    known: dict[str, Any] = {"fly": r.point.numbers, "thrust": thrusts, "offset": np.zeros_like(thrusts)}
+    known |= given_at(plan.tables, t, plan.dt)
+    moment = push_moment(push_sum(plan.tables, t), _attitude(r.point))
+    values = []
+    for (name, _), ((kind, i, _), *_) in r.inputs:
+        values.append(getattr(moment, name[-1]) if name.startswith("push_moment") else known[kind][i])
+    return np.array(values)
 
 
 def assumptions(r: LinearizationPlan, made: PeriodDerivative, of: str) -> list[str]:

@@ -22,10 +22,10 @@ from numpy.typing import NDArray
 from tandemlift.analysis.linearization.frequency_response import frequency_response
 from tandemlift.analysis.linearization.linear_model import LinearModel, Mode, modes_of
 from tandemlift.analysis.linearization.linearize import linearize
-from tandemlift.core.errors import without_flight_warnings
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, check, tables_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.rotors.hover import HoverFacts
 
 AXES = ("z", "roll", "pitch", "yaw")
 LOWEST, HIGHEST, POINTS = 0.1, 3000.0, 240  # rad/s
@@ -41,6 +41,8 @@ FASTER = 10.0  # times the largest speed of the rotors, so that no thrust is lim
 RESTING = 0.02  # m/s and rad/s, of a calm hover
 FIRST, MOST = 1e-4, 100.0  # s, the shortest and the longest delay and lag that are tried
 RELATIVE = 1e-4  # accuracy of the results
+ERRORS = ("noise", "bias", "drift", "misalignment")  # ends of the names of sensors' keys
+SLOWEST = 5  # modes that are checked
 FINER = 10  # frequencies for each at which a response is computed
 
 
@@ -98,7 +100,7 @@ def calm_mission(mission: Mission, *, lag: float | None = None, wait: float = 0.
     t["actuators"] |= {"model": "rotors", "delay": 0.0 if lag is None else mission.actuators.delay}
     for q in t["vehicle"]["quadrotors"]:
         q |= {"lag_up": lag or 0.0, "lag_down": lag or 0.0, "max_speed": FASTER * q["max_speed"]}
-    t["sensors"] = _without_errors(t["sensors"])
+    t["sensors"] = without_errors(t["sensors"]) | {"additional": []}
     height = max(mission.phases.height, 0.5) if floor else mission.phases.height
     t["phases"] |= {"lift_start": 1.0, "lift_duration": LIFT, "height": height}
     t["phases"].pop("land_start", None)
@@ -108,21 +110,16 @@ def calm_mission(mission: Mission, *, lag: float | None = None, wait: float = 0.
             e["tare_start"] = at
         at += SETTLED + mission.estimator.tare_duration + (SETTLED if mission.estimator.tare == "hover" else 0.0)
     t["mission"]["duration"] = at + wait + 1.0
-    with without_flight_warnings():
-        return check(t, mission.mission.name), at + wait
+    return check(t, mission.mission.name, quiet=True), at + wait
 
 
-def _without_errors(sensors: dict[str, Any]) -> dict[str, Any]:
-    """Sensors without noise, bias, drift and misalignment."""
-    wrong = ("noise", "bias", "drift", "misalignment")
-
-    def clean(name: str, value: object) -> object:
-        return 0.0 if name.endswith(wrong) and not isinstance(value, dict) else value
-
-    kept = {
-        k: {n: clean(n, v) for n, v in part.items()} if isinstance(part, dict) else part for k, part in sensors.items()
-    }
-    return {k: v for k, v in kept.items() if k != "additional"}
+def without_errors(sensors: Any, errors: tuple[str, ...] = ERRORS) -> Any:
+    """Tables of sensors in which the keys that end with the name of an error are 0."""
+    if isinstance(sensors, list):
+        return [without_errors(part, errors) for part in sensors]
+    if not isinstance(sensors, dict):
+        return sensors
+    return {name: 0.0 if name.endswith(errors) else without_errors(part, errors) for name, part in sensors.items()}
 
 
 def open_loop(mission: Mission) -> OpenLoop:
@@ -140,12 +137,21 @@ def open_loop(mission: Mission) -> OpenLoop:
     radius = float(np.abs(np.linalg.eigvals(few.A)).max())
     in_axes = replace(few, B=few.B @ vehicle.allocation(calm.allocation.weights), C=vehicle.effect @ few.C)
     in_axes = replace(in_axes, D=vehicle.effect @ few.D @ vehicle.allocation(calm.allocation.weights))
+    # short of the Nyquist frequency, beyond which samples tell nothing of what happens between them
     w = np.geomspace(LOWEST, min(HIGHEST, 0.9 * math.pi / model.step), POINTS)
-    T, h, s, eye = calm.mission.step, model.step, 1j * w, np.eye(4)
-    held = (np.expm1(-s * T) * h) / (np.expm1(-s * h) * T)  # an offset acts for a sample, a rotor's thrust for a step
+    held, eye = step_over_sample(w, calm.mission.step, model.step), np.eye(4)
     near = frequency_response(in_axes, w / (2.0 * math.pi)) - eye
-    S: NDArray[np.complexfloating] = eye + near * held[:, None, None]
+    S: NDArray[np.complexfloating] = np.asarray(eye + near * held[:, None, None], complex)
     return OpenLoop(w, np.linalg.inv(S) - eye, radius <= 1.0 + ON_CIRCLE and is_calm(model))
+
+
+def step_over_sample(w: Array, step: float, sample: float) -> NDArray[np.complexfloating]:
+    """The response (F) to an input that is held for a step [s] over that to one held for a sample [s].
+
+    Inputs of a linear model act for a sample, the thrust of a rotor and an arm for a step of the mission.
+    """
+    s = 1j * w
+    return (np.expm1(-s * step) * sample) / (np.expm1(-s * sample) * step)
 
 
 def is_calm(model: LinearModel) -> bool:
@@ -155,7 +161,7 @@ def is_calm(model: LinearModel) -> bool:
     return all(abs(motion.get(name, 0.0)) < RESTING for name in names)
 
 
-def slowest_modes(mission: Mission, lag: float, count: int = 5) -> list[Mode]:
+def slowest_modes(mission: Mission, lag: float) -> list[Mode]:
     """The least damped modes of the closed step with the mission's delay and a lag of the rotors [s].
 
     Raises:
@@ -163,7 +169,12 @@ def slowest_modes(mission: Mission, lag: float, count: int = 5) -> list[Mode]:
     """
     calm, at = calm_mission(mission, lag=lag)
     modes = modes_of(linearize(calm, at, kink_tolerance=NO_KINK).connected()).modes
-    return sorted((mode for mode in modes if mode.frequency > 0.0), key=lambda mode: mode.damping)[:count]
+    return sorted((mode for mode in modes if mode.frequency > 0.0), key=lambda mode: mode.damping)[:SLOWEST]
+
+
+def rotor_delay_and_lag(hover: HoverFacts) -> tuple[float, float]:
+    """(The delay of the rotors, the mean of their lags up and down) [s]; 0 of ideal rotors."""
+    return (hover.actuators.delay, hover.lag) if hover.actuators.model == "rotors" else (0.0, 0.0)
 
 
 def rotors_response(w: Array, delay: float, lag: float) -> NDArray[np.complexfloating]:
@@ -179,6 +190,7 @@ def is_stable(loop: OpenLoop, delay: float, lag: float) -> bool:
     eye, G = np.eye(4), rotors_response(w, delay, lag)[:, None, None]
     ratio = np.linalg.det(eye + L * G) / np.linalg.det(eye + L)
     turned = np.unwrap(np.angle(ratio))
+    # G(0) = 1, so that poles become unstable in pairs, off the real axis: each pair turns the ratio by 2π
     return bool(abs(turned[-1] - turned[0]) < math.pi)
 
 
@@ -199,10 +211,16 @@ def largest(
         low, high = high, 1.5 * high
         if high > most:
             return math.inf
+    low, high = bisected(stable, low, high, accuracy)
+    return 0.5 * (low + high)
+
+
+def bisected(stable: Callable[[float], bool], low: float, high: float, accuracy: float) -> tuple[float, float]:
+    """(A stable number, an unstable one), apart by at most a relative accuracy, from two that are farther apart."""
     while high - low > accuracy * high:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if stable(middle) else (low, middle)
-    return 0.5 * (low + high)
+    return low, high
 
 
 def axis_margins(w: Array, L: NDArray[np.complexfloating]) -> list[AxisMargins]:

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.linearization.model_inputs import InputColumn, given_at
+from tandemlift.analysis.linearization.model_variables import InputColumn, given_at
 from tandemlift.analysis.linearization.operating_point import OperatingPoint
 from tandemlift.analysis.linearization.step_derivative import StepDerivative, StepSeeds
 from tandemlift.analysis.linearization.step_graph import StateChoice, StepGraph

@@ -14,10 +14,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.linearization.linear_model import Variable, reachable
+from tandemlift.analysis.linearization.linear_model import Variable, connecting_states
 from tandemlift.analysis.linearization.linearize import linearization_plan
 from tandemlift.analysis.linearization.loop_margins import AXES, calm_mission
-from tandemlift.analysis.linearization.model_inputs import InputColumn
+from tandemlift.analysis.linearization.model_variables import InputColumn
 from tandemlift.analysis.linearization.operating_point import flown_to
 from tandemlift.analysis.linearization.period import differentiate
 from tandemlift.analysis.robustness.sector_bound import (
@@ -30,7 +30,7 @@ from tandemlift.analysis.robustness.sector_bound import (
     response,
     without_resting_modes,
 )
-from tandemlift.core.errors import InputError
+from tandemlift.core.errors import InputError, extra
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission
 from tandemlift.parts.pilot.thrust_bounds import OFFSETS, REACHING, SURFACE, rotor_axes, switching_slopes
@@ -94,14 +94,14 @@ def loop_of(mission: Mission) -> CutLoop:
     late = {one.number for one in request.delayed if one.under_way}
     columns = [InputColumn(Variable("cut", ""), (("node", node, 1.0),)) for node in nodes]
     request = request._replace(choice=graph.choose(outputs, [], late), inputs=columns, outputs=outputs)
-    made, E, F = differentiate(request), _diagonal(into), _diagonal(out)
+    with extra("certify", "the loop of the nonlinear tier"):
+        from scipy.linalg import block_diag
+    made, E, F = differentiate(request), block_diag(*into), block_diag(*out)
     if max(abs(made.x1 - made.x0)[3:6]) > 1e-3:
         raise InputError(f"{mission.mission.name} does not hover calmly: its hover is not stable")
     B = np.hstack([made.B @ E, made.A @ _disturbances([graph.names[i] for i in request.choice.kept], len(made.A))])
     C, D = F @ made.C, np.hstack([F @ made.D @ E, np.zeros((len(F), len(DISTURBED)))])
-    kept = np.flatnonzero(
-        reachable(made.A != 0.0, (B != 0.0).any(axis=1)) & reachable((made.A != 0.0).T, (C != 0.0).any(axis=0))
-    )
+    kept = connecting_states(made.A, B, C)
     whole = Plant(made.A[np.ix_(kept, kept)], B[kept], C[:, kept], D)
     plant, error = reduced(without_resting_modes(whole), len(kept), EXACT)
     return CutLoop(plant, names, request.steps * calm.mission.step, error)
@@ -112,15 +112,6 @@ def _results(graph: Any, smooth: frozenset[int], law: Callable[..., Any]) -> lis
     own = [n for n in smooth if getattr(graph.graph.laws[n], "__code__", None) is law.__code__]
     used = {a for n in own if graph.graph.ops[n] != "const" for a in graph.graph.args[n]}
     return sorted(n for n in own if n not in used)
-
-
-def _diagonal(blocks: Sequence[Array]) -> Array:
-    whole = np.zeros((sum(len(b) for b in blocks), sum(b.shape[1] for b in blocks)))
-    row = column = 0
-    for b in blocks:
-        whole[row : row + len(b), column : column + b.shape[1]] = b
-        row, column = row + len(b), column + b.shape[1]
-    return whole
 
 
 def _disturbances(names: Sequence[str], size: int) -> Array:
@@ -135,6 +126,8 @@ def parts_of(
     loop: CutLoop, cuts: Sequence[str], unit: float = 1.0, disturbance: float = SMALL
 ) -> list[tuple[LoopPart, list[Start]]]:
     """The parts of a loop between some of its cuts, reduced, each with its starts after a unit disturbance."""
+    from scipy.sparse.csgraph import connected_components  # which the loop has found installed
+
     chosen, m = [loop.names.index(name) for name in cuts], len(loop.names)
     p = loop.plant
     w = np.geomspace(LOW, HIGH * math.pi / loop.step, POINTS)
@@ -144,7 +137,9 @@ def parts_of(
     found = list[tuple[LoopPart, list[Start]]]()
     apart = _balance(size, ONE_WAY)
     equal = size * apart[:, None] / apart
-    for own in _connected(equal > APART * np.diag(size).max()):
+    # coupled in one direction, or through others, is coupled
+    count, part_of = connected_components(equal > APART * np.diag(size).max())
+    for own in (np.flatnonzero(part_of == number) for number in range(count)):
         scale, at = _balance(size[np.ix_(own, own)]) / unit, [chosen[i] for i in own]
         D = p.D[np.ix_(at, at)] * scale[:, None] / scale
         part = Plant(
@@ -158,18 +153,6 @@ def parts_of(
         left, k = energies(difference(part, few)), len(at)
         starts = [Start(few.B[:, k + j] / disturbance, left[k + j] / disturbance) for j in range(len(DISTURBED))]
         found.append((LoopPart(Plant(few.A, few.B[:, :k], few.C, D), tuple(at), error + rest, scale), starts))
-    return found
-
-
-def _connected(coupled: Any) -> list[list[int]]:
-    """The sets of channels that are coupled with each other, directly or not."""
-    left, found = set(range(len(coupled))), list[list[int]]()
-    while left:
-        own = {min(left)}
-        while more := {j for i in own for j in left - own if coupled[i, j] or coupled[j, i]}:
-            own |= more
-        found.append(sorted(own))
-        left -= own
     return found
 
 

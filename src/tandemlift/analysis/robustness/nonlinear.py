@@ -8,19 +8,19 @@ with multipliers in the ratio W². The solver's small weight of the distance fro
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
 from tandemlift.analysis.linearization.claims import Claim, FlownLimit, Tier
-from tandemlift.analysis.linearization.loop_margins import AXES, calm_mission
+from tandemlift.analysis.linearization.loop_margins import AXES, bisected, calm_mission
 from tandemlift.analysis.robustness.cut_loop import DISTURBED, SURFACES, CutLoop, loop_of, parts_of
 from tandemlift.analysis.robustness.intervals import bounds
 from tandemlift.analysis.robustness.sector_bound import LoopPart, Sectors, Start, region_of, solvers, tolerated
-from tandemlift.core.errors import InputError, without_flight_warnings
+from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, check, tables_of
-from tandemlift.parts.pilot.thrust_bounds import commanded_thrusts, disturb, rotor_axes
+from tandemlift.parts.pilot.thrust_bounds import RotorAxes, commanded_thrusts, disturb, rotor_axes
 from tandemlift.simulation.pilot_api import pilot_at_start
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.stepping import Stepper
@@ -37,47 +37,30 @@ LARGEST_BOX, BOX_BISECTIONS = 100.0, 14
 DISTURBANCE = 0.2  # size of an offset, in its unit, whose response is reduced as exactly as the loop's
 
 
-def sectors_of(part: LoopPart, mission: Mission, lost: float, *, limits: Array | None = None) -> Sectors:
+def sectors_of(part: LoopPart, priorities: Sequence[float], lost: float, *, within: RotorAxes | None = None) -> Sectors:
     """The sectors of a part's cuts.
 
     Args:
         part: of the loop.
-        mission: of the loop.
+        priorities: of the axes, in an allocation within thrust limits; none without one.
         lost: the share of a cut's linear response that it may take away; below 0, that it may add.
-        limits: (rotors) of the thrusts' excursions from hover [N], which a region has to stay within; None for none.
+        within: the rotors whose limits a region has to stay within; None for none.
     """
     k = len(part.channels)
-    axes = np.array([i < len(AXES) for i in part.channels]) & (mission.allocation.method == "constrained")
+    axes = np.array([i < len(AXES) for i in part.channels]) & bool(priorities)
     shared, rows = np.zeros(k), np.zeros((0, 2 * k))
     if axes.any():
         own = [i for i in part.channels if i < len(AXES)]
-        shared[axes] = (np.array(mission.allocation.priorities)[own] / part.scale[axes]) ** 2
-        if limits is not None:
-            inverse = rotor_axes(mission.vehicle, mission.allocation.weights).inverse
-            moved = inverse[:, own] / part.scale[axes] / limits[:, None]
+        shared[axes] = (np.array(priorities)[own] / part.scale[axes]) ** 2
+        if within is not None:
+            moved = within.inverse[:, own] / part.scale[axes] / within.room[:, None]
             rows = np.zeros((len(moved), 2 * k))
             rows[:, :k][:, axes] = moved * np.sign(moved[:, :1] + 1e-300)
             rows = np.unique(rows.round(12), axis=0)
     return Sectors(np.full(k, lost), shared / max(shared.max(), 1e-300), rows)
 
 
-def thrust_room(mission: Mission) -> Array:
-    """The excursion (rotors) from hover [N] that each rotor's limits leave, up and down.
-
-    Raises:
-        InputError: a rotor hovers at a limit.
-    """
-    _, _, room, hover, most = rotor_axes(mission.vehicle, mission.allocation.weights)
-    if (room <= 0.0).any():
-        worst = int(room.argmin())
-        raise InputError(
-            f"rotor {worst + 1} hovers at {hover[worst]:.3g} N, and its limits are 0 and {most[worst]:.3g} N: "
-            "raise max_speed or thrust_constant of its quadrotor, or lower the mass"
-        )
-    return room
-
-
-def _sector_claims(mission: Mission, loop: CutLoop) -> Iterator[Claim]:
+def _sector_claims(loop: CutLoop, priorities: Sequence[float]) -> Iterator[Claim]:
     texts = {
         "thrust": "share of a commanded change of thrust or moment that may be {}, at any time, known to the pilot",
         "switching": "share of the switching's slope at 0 that may be {}, at any time{}",
@@ -87,7 +70,7 @@ def _sector_claims(mission: Mission, loop: CutLoop) -> Iterator[Claim]:
             subject = ", ".join(loop.names[i] for i in part.channels)
 
             def stable(share: float, part: LoopPart = part) -> bool:
-                return region_of(part, sectors_of(part, mission, share)) is not None
+                return region_of(part, sectors_of(part, priorities, share)) is not None
 
             lost, added = tolerated(stable, 1.0), tolerated(lambda x: stable(-x), MOST_GAIN)
             text, all_of_it = texts[what], "; tanh and saturation lose less than 1" if what == "switching" else ""
@@ -96,32 +79,45 @@ def _sector_claims(mission: Mission, loop: CutLoop) -> Iterator[Claim]:
             yield Claim(f"{what} gain tolerated", subject, added or None, "1", text=text.format("added", ""))
 
 
-def offset_parts(mission: Mission, loop: CutLoop) -> list[tuple[LoopPart, list[Start]]]:
-    """The parts of a loop between its thrust limits, in units of the room that the limits leave."""
-    return parts_of(loop, AXES, unit=float(thrust_room(mission).min()), disturbance=DISTURBANCE)
-
-
-def farthest(mission: Mission, parts: list[tuple[LoopPart, list[Start]]], offset: Mapping[str, float]) -> float | None:
-    """The largest factor of an offset from which the loop comes to rest within thrust limits; None if none is found.
+class OffsetBounds:
+    """Offsets of the state from which a loop comes to rest within thrust limits.
 
     Args:
-        mission: of the loop.
-        parts: by `offset_parts`.
-        offset: of the state, by the names of `DISTURBED`.
+        loop: cut at its thrust limits.
+        priorities: of the axes in the allocation.
+        axes: of the rotors.
+
+    Raises:
+        InputError: a rotor hovers at a limit.
     """
-    room, shares = thrust_room(mission), np.array([offset.get(name, 0.0) for name in DISTURBED])
-    moved = [
-        Start(shares @ [s.state for s in starts], float(abs(shares) @ [s.left_out for s in starts]))
-        for _, starts in parts
-    ]
-    most, found = max(float(np.linalg.norm(start.state)) for start in moved), math.inf
-    for (part, _), start in zip(parts, moved, strict=True):
-        if np.linalg.norm(start.state) > SLIGHT * most:
-            region = region_of(part, sectors_of(part, mission, 1.0, limits=room), start)
-            if region is None:
-                return None
-            found = min(found, region.size)
-    return found
+
+    def __init__(self, loop: CutLoop, priorities: Sequence[float], axes: RotorAxes) -> None:
+        worst = int(axes.room.argmin())
+        if axes.room[worst] <= 0.0:
+            limits = f"its limits are 0 and {axes.most[worst]:.3g} N"
+            raise InputError(
+                f"rotor {worst + 1} hovers at {axes.hover[worst]:.3g} N, and {limits}: raise max_speed "
+                "or thrust_constant of its quadrotor, or lower the mass"
+            )
+        # in units of the room that the limits leave
+        self._parts = parts_of(loop, AXES, unit=float(axes.room.min()), disturbance=DISTURBANCE)
+        self._sectors = [sectors_of(part, priorities, 1.0, within=axes) for part, _ in self._parts]
+
+    def farthest(self, offset: Mapping[str, float]) -> float | None:
+        """The largest factor of an offset, by the names of `DISTURBED`, that is recovered; None if none is found."""
+        shares = np.array([offset.get(name, 0.0) for name in DISTURBED])
+        moved = [
+            Start(shares @ [s.state for s in starts], float(abs(shares) @ [s.left_out for s in starts]))
+            for _, starts in self._parts
+        ]
+        most, found = max(float(np.linalg.norm(start.state)) for start in moved), math.inf
+        for (part, _), sectors, start in zip(self._parts, self._sectors, moved, strict=True):
+            if np.linalg.norm(start.state) > SLIGHT * most:
+                region = region_of(part, sectors, start)
+                if region is None:
+                    return None
+                found = min(found, region.size)
+        return found
 
 
 class OffsetFlights:
@@ -133,8 +129,7 @@ class OffsetFlights:
         for own, real in zip(tables["vehicle"]["quadrotors"], mission.vehicle.quadrotors, strict=True):
             own |= {"lag_up": real.lag_up, "lag_down": real.lag_down, "max_speed": real.max_speed}
         tables["mission"]["duration"] = at + SETTLES
-        with without_flight_warnings():
-            plan = FlightPlan(check(tables, mission.mission.name))
+        plan = FlightPlan(check(tables, mission.mission.name, quiet=True))
         self._first, self._last = round(at / plan.dt), round((at + SETTLES) / plan.dt)
         self._stepper = Stepper(plan)
         for k in range(self._first):
@@ -160,18 +155,15 @@ class OffsetFlights:
             low, high = high, min(2.0 * high, most)
             if low == most:
                 return FlownLimit(low, math.inf, math.nan, "")
-        while high - low > ACCURACY * high:
-            middle = 0.5 * (low + high)
-            low, high = (middle, high) if self.recovers({name: middle}) else (low, middle)
+        low, high = bisected(lambda size: self.recovers({name: size}), low, high, ACCURACY)
         return FlownLimit(low, high, math.nan, "not at rest")
 
 
-def _offset_claims(mission: Mission, loop: CutLoop, fly: bool) -> Iterator[Claim]:
+def _offset_claims(mission: Mission, bounds: OffsetBounds, fly: bool) -> Iterator[Claim]:
     flights = OffsetFlights(mission) if fly else None
-    parts = offset_parts(mission, loop)
     for name in DISTURBED:
         what, axis = name.split(".")
-        size = farthest(mission, parts, {name: 1.0})
+        size = bounds.farthest({name: 1.0})
         shown = "" if size is None or what != "attitude" else f" ({math.degrees(size):.3g} deg)"
         text = f"with {what} off by less than this{shown} along {axis}, thrust limits do not prevent a return to hover"
         flown = flights.limit(name, size) if flights is not None and size is not None else None
@@ -264,9 +256,12 @@ def nonlinear_tier(mission: Mission, *, fly: bool = False) -> Tier:
             )
         if SURFACES[0] not in loop.names:
             reasons.append("switching: only that of nftsmc with tanh or saturation has a slope")
-        claims += _sector_claims(mission, loop)
+        allocation = mission.allocation
+        priorities = allocation.priorities if allocation.method == "constrained" else ()
+        claims += _sector_claims(loop, priorities)
         if AXES[0] in loop.names:
-            claims += _offset_claims(mission, loop, fly)
+            axes = rotor_axes(mission.vehicle, allocation.weights)
+            claims += _offset_claims(mission, OffsetBounds(loop, priorities, axes), fly)
     except InputError as error:
         reasons.append(str(error))
     return Tier("nonlinear", "Nonlinear, local", ASSUMED, tuple(claims), reason="; ".join(reasons))

@@ -117,7 +117,7 @@ def gramian(A: Array, B: Array) -> Array:
 
 
 def without_resting_modes(plant: Plant) -> Plant:
-    """The same response without modes that neither decay nor show, such as the length of a quaternion.
+    """A plant with the same response without modes that neither decay nor show, such as the length of a quaternion.
 
     Raises:
         InputError: such a mode shows, or one grows.

@@ -30,7 +30,7 @@ from tandemlift.analysis.robustness.uncertainty import (
     parameters_of,
     uncertain_tables,
 )
-from tandemlift.core.errors import InputError, without_flight_warnings
+from tandemlift.core.errors import InputError
 from tandemlift.missions import Mission, built_in, check, format_toml, load_mission, tables_of
 
 NAME, TITLE = "structured", "Structured: all parameters at once"
@@ -159,8 +159,7 @@ def worst_mission(mission: Mission, values: Values, worst: Worst) -> str:
     rest |= {"phases": {**whole["phases"], "land_start": 2.0 * end}}
     rest["mission"] = {**whole["mission"], "name": f"{name}-worst", "duration": end}
     keys = uncertain_tables(whole, values) | rest
-    with without_flight_warnings():
-        check(keys, f"{name}-worst")
+    check(keys, f"{name}-worst", quiet=True)
     if name in built_in() and load_mission(name) == mission:
         keys = {"extends": name} | {key: value for key, value in keys.items() if value != whole.get(key)}
     return (
@@ -210,7 +209,7 @@ def words(values: Values) -> str:
 
 
 def assumptions(mission: Mission, box: Mapping[str, float], widths: Mapping[str, float]) -> tuple[str, ...]:
-    """What the tier takes for granted, a sentence each."""
+    """The assumptions of the tier, a sentence each."""
     said = [
         "The loop is the linear model of a calm hover, sampled, without noise, wind, ground effect and thrust limits.",
         f"Parameters are real and constant, in a box about the mission: {words(box).replace('+', '±')}; a delay only "

@@ -16,9 +16,17 @@ import numpy as np
 from tandemlift.analysis.linearization.frequency_response import frequency_response
 from tandemlift.analysis.linearization.linear_model import LinearModel
 from tandemlift.analysis.linearization.linearize import linearize
-from tandemlift.analysis.linearization.loop_margins import LOWEST, NO_KINK, POINTS, WAITS, calm_mission, is_calm
+from tandemlift.analysis.linearization.loop_margins import (
+    LOWEST,
+    NO_KINK,
+    POINTS,
+    WAITS,
+    calm_mission,
+    is_calm,
+    rotor_delay_and_lag,
+)
 from tandemlift.analysis.robustness.structured_singular_value import Complex
-from tandemlift.core.errors import InputError, unknown, without_flight_warnings
+from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, check, tables_of
 
@@ -138,8 +146,7 @@ def calm_model(mission: Mission, values: Values, *, real: bool) -> LinearModel:
     off = {**values, "lag": 0.0, "delay": values.get("delay", 0.0) if real else 0.0}
     for wait in WAITS:
         calm, at = calm_mission(mission, lag=lag, wait=wait)
-        with without_flight_warnings():
-            calm = check(uncertain_tables(tables_of(calm), off), mission.mission.name)
+        calm = check(uncertain_tables(tables_of(calm), off), mission.mission.name, quiet=True)
         ports: Any = {"inputs": ["thrust_offsets", "disturbance_moment"], "outputs": ["rotor_thrusts", "rates"]}
         model = linearize(calm, at, **ports, kink_tolerance=NO_KINK)
         if is_calm(model):
@@ -148,7 +155,7 @@ def calm_model(mission: Mission, values: Values, *, real: bool) -> LinearModel:
 
 
 class Trim(NamedTuple):
-    """What a parameter p that changes the hover adds to H of `Family`: U p (I − V p)⁻¹ W."""
+    """The part of H of `Family` that a parameter p adds because it changes the hover: U p (I − V p)⁻¹ W."""
 
     U: Complex
     W: Complex
@@ -220,9 +227,8 @@ def family_at(hovers: Hovers, w: Array) -> Family:
         gains = (1.0 + p, 1.0 + q) if name == "thrust" else (1.0, 1.0)
         off = [unit_gain(port_response(mission, m, w), g) - H for m, g in zip((one, other), gains, strict=True)]
         trims[name] = rational(off[0], off[1], p, q)
-    real = mission.actuators.model == "rotors"
-    spread = mission.hover.vehicle.allocation(mission.allocation.weights)
-    return Family(w, H, trims, spread, mission.hover.lag if real else 0.0, mission.actuators.delay if real else 0.0)
+    delay, lag = rotor_delay_and_lag(mission.hover)
+    return Family(w, H, trims, mission.hover.vehicle.allocation(mission.allocation.weights), lag, delay)
 
 
 def unit_gain(H: Complex, gain: float) -> Complex:

@@ -210,7 +210,7 @@ def baseline_tables(*, quick: bool = False, progress: Progress | None = None) ->
 
 
 def shipped_tables(*, quick: bool = False) -> dict[Kind, dict[str, Scores]]:
-    """The same as the package has them."""
+    """The rows of all baselines, as the package has them."""
     both = json.loads((DATA / "benchmark.json").read_text("utf-8"))
     tables: dict[Kind, dict[str, Scores]] = both["quick" if quick else "full"]
     return tables

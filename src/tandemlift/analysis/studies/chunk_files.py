@@ -8,13 +8,15 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from tandemlift.analysis.studies.execution.checked_file import ABOUT, CheckedFile, DamagedFile
 from tandemlift.core.errors import extra, unknown
+from tandemlift.core.types import Array
 
 if TYPE_CHECKING:
     import pyarrow
 
-CHANNEL = "flight."  # begins the name of a kept channel's column
 CODED = ("mission", "controller", "engine", "case", "outcome", "finding_kinds")  # few different texts in many rows
 THREADS = 4  # that read files; PyArrow reads without Python
 
@@ -33,6 +35,11 @@ def _opened(file: ChunkFile, coded: Collection[str] = ()) -> CheckedFile:
         return CheckedFile(file.path, coded)
     except OSError as error:
         raise DamagedFile(file.path, error) from None
+
+
+def floats_of(column: pyarrow.ChunkedArray) -> Array:
+    """A column of numbers or truths as floats; NaN for null."""
+    return np.asarray(column.cast("float64").to_numpy(zero_copy_only=False), np.float64)
 
 
 def columns_in(files: Iterable[ChunkFile]) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from tandemlift.analysis.studies.design.plan import SEED, StudyPlan
-from tandemlift.analysis.studies.design.statistics import share
+from tandemlift.analysis.studies.design.statistics import Share, share
 from tandemlift.core.errors import extra
 
 if TYPE_CHECKING:
@@ -42,13 +42,10 @@ def to_xarray(plan: StudyPlan, table: pyarrow.Table, varied: pyarrow.Table) -> x
     drawn = [name for name in varied.column_names if name != "seed" and name not in coordinates]
     for name, column in [(SEED, "seed"), *[(name, name) for name in drawn]]:
         found[name] = _along_few(grid(varied[column]), dims)
-    variables = {name: (dims, grid(table[name])) for name in table.column_names if _measured(name, varied)}
+    measured = [name for name in table.column_names if name not in (*SHAPED, *varied.column_names)]
+    variables = {name: (dims, grid(table[name])) for name in measured}
     about = {"name": plan.settings.study.name}
     return xarray.Dataset(variables, found, about)
-
-
-def _measured(name: str, varied: pyarrow.Table) -> bool:
-    return name not in SHAPED and name not in varied.column_names
 
 
 def _dimensions(plan: StudyPlan) -> tuple[dict[str, int], dict[str, tuple[str, list[Any]]]]:
@@ -89,21 +86,20 @@ def _along_few(values: np.ndarray, dims: tuple[str, ...]) -> tuple[tuple[str, ..
     left = list(dims)
     for name in dims:
         axis = left.index(name)
-        first = np.take(values, [0], axis)
-        if _equal(values, first):
+        first = np.broadcast_to(np.take(values, [0], axis), values.shape)
+        if np.array_equal(values, first, equal_nan=values.dtype.kind == "f"):
             values = np.take(values, 0, axis)
             left.remove(name)
     return tuple(left), values
 
 
-def _equal(values: np.ndarray, first: np.ndarray) -> bool:
-    same = values == first
-    if values.dtype.kind == "f":
-        same |= np.isnan(values) & np.isnan(first)
-    return bool(np.all(same))
-
-
 MOST_NAMES = 8
+
+
+def outcome_shares(outcomes: pyarrow.ChunkedArray) -> dict[str, Share]:
+    """The share of each outcome among rows, with its interval; the most frequent first."""
+    counts = sorted(outcomes.value_counts().to_pylist(), key=lambda one: -one["counts"])
+    return {one["values"]: share(one["counts"], len(outcomes)) for one in counts}
 
 
 def percent(value: float) -> str:
@@ -121,12 +117,10 @@ def study_html(name: str, rows: int, count: int, varied: Sequence[str], outcomes
         varied: columns.
         outcomes: the column `outcome` of the rows.
     """
-    found = {one["values"]: one["counts"] for one in outcomes["outcome"].value_counts().to_pylist()}
     lines = []
-    for outcome, number in sorted(found.items(), key=lambda pair: -pair[1]):
-        part = share(number, rows)
+    for outcome, part in outcome_shares(outcomes["outcome"]).items():
         interval = f"{percent(part.low)} to {percent(part.high)}"
-        cells = (escape(outcome), f"{number:,}", percent(part.value), interval)
+        cells = (escape(outcome), f"{part.number:,}", percent(part.value), interval)
         lines.append("<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")
     missing = f" of {count:,}" if rows < count else ""
     names = [f"<code>{escape(key)}</code>" for key in varied[:MOST_NAMES]]

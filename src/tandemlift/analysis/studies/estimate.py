@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.design.settings import BLOCK
-from tandemlift.analysis.studies.execution.chunk import Chunk, chunk_count
+from tandemlift.analysis.studies.execution.chunk import chunk_of, chunk_spans
 from tandemlift.analysis.studies.execution.columns import write_columns
 from tandemlift.analysis.studies.execution.flying import fly_chunk
 
@@ -33,11 +33,11 @@ class StudyEstimate(NamedTuple):
 def estimate(plan: StudyPlan) -> StudyEstimate:
     """Estimate the cost of a study from the first block of each variant, flown twice, as the first compiles."""
     per_variant = plan.count // len(plan.variants)
-    seconds, size, chunks = 0.0, 0.0, chunk_count(plan)
+    seconds, size, chunks = 0.0, 0.0, len(chunk_spans(plan.count, plan.rows_per_chunk))
     with tempfile.TemporaryDirectory() as folder:
         for variant in range(len(plan.variants)):
             first = variant * per_variant
-            block = _sample(plan, first, first + min(BLOCK, per_variant))
+            block = chunk_of(plan, first, first + min(BLOCK, per_variant), "sample")
             fly_chunk(block)
             began = time.perf_counter()
             columns = fly_chunk(block)
@@ -50,12 +50,6 @@ def estimate(plan: StudyPlan) -> StudyEstimate:
             per_row = max(0.0, sizes[1] - sizes[0]) / len(block.rows)
             size += (sizes[0] * chunks + per_row * plan.count) / len(plan.variants)
     return StudyEstimate(plan.count, chunks, plan.rows_per_chunk, seconds, round(size))
-
-
-def _sample(plan: StudyPlan, first: int, last: int) -> Chunk:
-    rows = tuple(plan.rows(first, last))
-    variants = {row.variant: plan.variants[row.variant] for row in rows}
-    return Chunk("sample", first, last, rows, variants, plan.settings.keep)
 
 
 def _time(seconds: float) -> str:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.analysis.studies.chunk_files import floats_of
 from tandemlift.analysis.studies.design.settings import REFUSED
 from tandemlift.analysis.studies.table import BAD, Study
 from tandemlift.core.errors import unknown
@@ -164,10 +165,10 @@ class StudyRows:
         own = ["row", "draw", "steps"] if "steps" in study.columns else ["row", "draw"]
         table = study.read(list(dict.fromkeys([*own, *WHO, "outcome", "finding_kinds", *varied, *columns])), coded=True)
         self.number, self.draw = (table[name].to_numpy() for name in ("row", "draw"))
-        self.steps = _numbers(table["steps"]) if "steps" in own else np.zeros(len(table))
+        self.steps = floats_of(table["steps"]) if "steps" in own else np.zeros(len(table))
         self.labels = {name: _labels(table[name]) for name in (*WHO, "outcome", "finding_kinds")}
         self.varied, self.texts = _what_varies(table, varied)
-        known = {name: _numbers(table[name]) for name in columns}
+        known = {name: floats_of(table[name]) for name in columns}
         self.quantities = asked or telling(possible, lambda name: bool(np.nansum(np.abs(known[name]))))
         self.values = {q.name: np.where(self.bad, np.nan, q.of(known)) for q in self.quantities}
 
@@ -236,11 +237,6 @@ class StudyRows:
         return dict(sorted(found.items(), key=lambda pair: -int(pair[1].sum())))
 
 
-def _numbers(column: Any) -> Array:
-    """A column as floats; NaN for null."""
-    return np.asarray(column.cast("float64").to_numpy(zero_copy_only=False), np.float64)
-
-
 def _labels(column: Any) -> Labels:
     """A column of texts as codes."""
     import pyarrow
@@ -264,6 +260,6 @@ def _what_varies(table: pyarrow.Table, names: Sequence[str]) -> tuple[dict[str, 
             codes, texts[name] = _labels(column)
             numbers[name] = codes.astype(np.float64)
         else:
-            numbers[name] = _numbers(column)
+            numbers[name] = floats_of(column)
     varying = {n: v for n, v in numbers.items() if np.nanmax(v, initial=-np.inf) > np.nanmin(v, initial=np.inf)}
     return varying, {name: known for name, known in texts.items() if name in varying}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,12 +11,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tandemlift.analysis.studies.chunk_files import CHANNEL, ChunkFile, about, columns_in, read
-from tandemlift.analysis.studies.dataset import study_html, to_xarray
+from tandemlift.analysis.studies.chunk_files import ChunkFile, about, columns_in, floats_of, read
+from tandemlift.analysis.studies.dataset import outcome_shares, study_html, to_xarray
 from tandemlift.analysis.studies.design.keys import columns_of
 from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.design.settings import REFUSED, StudySettings
-from tandemlift.analysis.studies.design.statistics import share
+from tandemlift.analysis.studies.execution.chunk import chunk_spans
+from tandemlift.analysis.studies.execution.columns import CHANNEL
 from tandemlift.analysis.studies.execution.store import StudyFolder
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.phases import FAILURES
@@ -123,7 +123,7 @@ class Study:
         """
         found = self.read([column])[column]
         try:
-            return np.asarray(found.cast("float64").to_numpy(zero_copy_only=False), np.float64)
+            return floats_of(found)
         except ValueError:
             raise InputError(f"column {column!r} holds texts, not numbers") from None
 
@@ -215,24 +215,20 @@ def load_study(folder: str | os.PathLike[str]) -> Study:
         import pyarrow  # noqa: F401
     path = Path(folder)
     store = StudyFolder(path)
-    files = []
-    for i, name in enumerate(store.names()):
-        first, file = i * store.rows_per_chunk, store.files.file(name)
-        if file.exists():
-            files.append(ChunkFile(file, first, min(store.count, first + store.rows_per_chunk)))
-    return Study(path, store.plan(), tuple(files))
+    spans = chunk_spans(store.count, store.rows_per_chunk)
+    files = [ChunkFile(store.files.file(name), *span) for name, span in zip(store.names(), spans, strict=True)]
+    return Study(path, store.plan(), tuple(file for file in files if file.path.exists()))
 
 
 def outcome_lines(study: Study) -> Iterator[str]:
     """How often each outcome occurred, with its interval; the first refused row; the number of missing rows."""
     read = study.read(["row", "outcome", "reason"])
-    outcomes = read["outcome"].to_pylist()
+    shares = outcome_shares(read["outcome"])
     yield f"{'outcome':12}{'rows':>10}   share, and its two-sided 95 % interval"
-    for outcome, count in Counter(outcomes).most_common():
-        s = share(count, len(study))
-        yield f"{outcome:12}{count:>10,}   {100 * s.value:.4g} % ({100 * s.low:.3g} to {100 * s.high:.3g} %)"
-    if REFUSED in outcomes:
-        first = outcomes.index(REFUSED)
+    for outcome, s in shares.items():
+        yield f"{outcome:12}{s.number:>10,}   {100 * s.value:.4g} % ({100 * s.low:.3g} to {100 * s.high:.3g} %)"
+    if REFUSED in shares:
+        first = read["outcome"].index(REFUSED).as_py()
         yield f"row {read['row'][first]} is refused: {read['reason'][first]}"
     if study.missing:
         yield f"{study.missing:,} of {study.plan.count:,} rows are still to be flown"

@@ -77,9 +77,9 @@ def study(
       report.html     outcomes, distributions, maps, the worst rows; `tandemlift report DIR` writes it again
     """
     if template:
-        from tandemlift.analysis.studies.design.study_files import TEMPLATE
+        from tandemlift.analysis.studies.design.study_files import template as study_template
 
-        echo(TEMPLATE, nl=False)
+        echo(study_template(), nl=False)
         return
     if file is None:
         raise click.UsageError("Missing argument 'FILE': a study file; `tandemlift study --template` prints one.")

@@ -44,14 +44,6 @@ def run(plan, path, workers, **options):
     return run_chunks(StudyWork(plan, folder.names()), folder.files, workers, **options)
 
 
-@pytest.fixture(scope="module")
-def twelve(tmp_path_factory):
-    """The folder of a study that threads have flown."""
-    folder = tmp_path_factory.mktemp("studies") / "twelve"
-    assert fly(TWELVE, folder, threads=2) == 12
-    return folder
-
-
 @pytest.fixture
 def plan():
     return load_plan(TWELVE)
@@ -70,10 +62,10 @@ def test_an_error_of_a_chunk_ends_the_run_and_gives_its_claims_back(plan, tmp_pa
     assert list(tmp_path.glob("chunks/.*")) == []
 
 
-def test_parts_together_are_the_whole(twelve, tmp_path):
+def test_parts_together_are_the_whole(flown_twelve, tmp_path):
     flown = [fly(TWELVE, tmp_path, threads=2, part=part_from(f"{k}/5")) for k in (3, 1, 5, 2, 4)]
     assert flown == [2, 3, 2, 3, 2]
-    assert_same_rows(twelve, tmp_path)
+    assert_same_rows(flown_twelve, tmp_path)
 
 
 def test_a_part_beyond_the_number_of_chunks_has_nothing_to_do(plan, tmp_path):
@@ -104,18 +96,18 @@ def test_chunks_that_another_process_claims_are_flown_last(plan, tmp_path):
     assert list(tmp_path.glob("chunks/.*")) == []
 
 
-def test_what_another_process_has_flown_meanwhile_is_not_flown(twelve, plan, tmp_path):
+def test_what_another_process_has_flown_meanwhile_is_not_flown(flown_twelve, plan, tmp_path):
     folder = open_folder(plan, tmp_path)
     names = folder.names()
 
     class Overtaken(SlowWorkers):
         def columns(self, future):
             for name in names[6:]:
-                folder.files.file(name).write_bytes((twelve / "chunks" / f"{name}.parquet").read_bytes())
+                folder.files.file(name).write_bytes((flown_twelve / "chunks" / f"{name}.parquet").read_bytes())
             return super().columns(future)
 
     done = []
     flown = run(plan, tmp_path, Overtaken(), progress=lambda rows, total: done.append(rows))
     assert flown == 6
     assert done[-1] == 48
-    assert_same_rows(twelve, tmp_path)
+    assert_same_rows(flown_twelve, tmp_path)

@@ -19,16 +19,9 @@ from tandemlift.core.errors import InputError
 from tandemlift.parts.controllers import CONTROLLERS
 
 
-@pytest.fixture(scope="module")
-def whole(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("studies") / "twelve"
-    fly(TWELVE, folder, threads=2)
-    return folder
-
-
 @pytest.fixture
-def twelve(whole, tmp_path):
-    return shutil.copytree(whole, tmp_path / "twelve")
+def twelve(flown_twelve, tmp_path):
+    return shutil.copytree(flown_twelve, tmp_path / "twelve")
 
 
 def stamps(folder):
@@ -114,11 +107,11 @@ def test_a_folder_of_another_format_is_said_to_be_of_another_version(twelve):
 
 
 @pytest.fixture
-def locked(whole):
+def locked(flown_twelve):
     """The folder of a study that lacks one file, and to which this process may not write."""
     above = Path(tempfile.mkdtemp())
     above.chmod(0o755)
-    folder = shutil.copytree(whole, above / "twelve")
+    folder = shutil.copytree(flown_twelve, above / "twelve")
     next(iter(files_of(folder).values())).unlink()
     (folder / "chunks").chmod(0o555)
     folder.chmod(0o555)
@@ -142,17 +135,17 @@ def test_a_read_only_folder_is_one_clear_line(locked):
     assert stamps(locked) == there
 
 
-def test_a_full_disk_is_one_clear_line_and_what_was_flown_stays(whole, tmp_path):
+def test_a_full_disk_is_one_clear_line_and_what_was_flown_stays(flown_twelve, tmp_path):
     limit = 12_000  # bytes of a file: fewer than one of results has, more than the study's own files have
-    sizes = [path.stat().st_size for path in files_of(whole).values()]
-    assert min(sizes) > limit > (whole / "study.json").stat().st_size
+    sizes = [path.stat().st_size for path in files_of(flown_twelve).values()]
+    assert min(sizes) > limit > (flown_twelve / "study.json").stat().st_size
     process = started(TWELVE, tmp_path, largest_file=limit)
     _, errors = process.communicate(timeout=300)
     assert errors.splitlines()[-1].startswith("tandemlift.core.errors.InputError: ")
     assert errors.splitlines()[-1].endswith("cannot be written: File too large; what is done so far stays")
     assert list(tmp_path.glob("chunks/*")) == []
     assert fly(TWELVE, tmp_path) == 12
-    assert_same_rows(whole, tmp_path)
+    assert_same_rows(flown_twelve, tmp_path)
 
 
 def test_what_a_killed_process_left_behind_is_removed_once_it_is_old(twelve):

@@ -9,28 +9,21 @@ import pytest
 from study_runs import LONGER, TWELVE, assert_same_rows, files_of, fly
 
 from tandemlift.analysis.studies.execution.chunk import sources_digest
-from tandemlift.analysis.studies.execution.workers import OtherSources, fly_packed
+from tandemlift.analysis.studies.execution.workers import fly_packed
 from tandemlift.core.errors import InputError
-
-
-@pytest.fixture(scope="module")
-def twelve(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("studies") / "twelve"
-    fly(TWELVE, folder, threads=1)
-    return folder
 
 
 def spawned(count):
     return ProcessPoolExecutor(count, mp_context=multiprocessing.get_context("spawn"))
 
 
-def test_processes_and_threads_of_any_executor_give_the_same_rows(twelve, tmp_path):
+def test_processes_and_threads_of_any_executor_give_the_same_rows(flown_twelve, tmp_path):
     with spawned(2) as processes:
         assert fly(TWELVE, tmp_path / "processes", executor=processes) == 12
     with ThreadPoolExecutor(3) as threads:
         assert fly(TWELVE, tmp_path / "threads", executor=threads, threads=2) == 12
-    assert_same_rows(twelve, tmp_path / "processes")
-    assert_same_rows(twelve, tmp_path / "threads")
+    assert_same_rows(flown_twelve, tmp_path / "processes")
+    assert_same_rows(flown_twelve, tmp_path / "threads")
 
 
 def test_an_executor_whose_process_is_killed_is_refused_and_the_rest_stays(tmp_path):
@@ -50,5 +43,5 @@ def test_an_executor_that_is_shut_down_is_refused(tmp_path):
 
 
 def test_a_chunk_for_other_sources_is_refused_unread():
-    with pytest.raises(OtherSources, match=rf"process {os.getpid()}: .* {sources_digest()}, this study .* 0123"):
+    with pytest.raises(InputError, match=rf"process {os.getpid()}: .* {sources_digest()}, this study .* 0123"):
         fly_packed("0123", b"no pickle at all")

@@ -26,10 +26,10 @@ WHAT = (
 
 
 class BenchmarkEntry(NamedTuple):
-    """What is scored.
+    """An entry of the benchmark.
 
     Attributes:
-        kind: what it is.
+        kind: of table that it is scored in.
         name: of the row.
         changes: of every mission that it flies.
         controller: its name, or its file; "" for the mission's.

@@ -4,21 +4,18 @@ from __future__ import annotations
 
 from typing import Any
 
-from pydantic import ValidationError
-
 from tandemlift.analysis.studies.design.distributions import DISTRIBUTIONS, Distribution, Horizontal, Uniform
-from tandemlift.analysis.studies.design.keys import by_key, key_at, leaves_of
+from tandemlift.analysis.studies.design.keys import by_key, key_at, leaves_of, validated
 from tandemlift.core.errors import InputError, shown, suggestion
 from tandemlift.core.types import Array
 from tandemlift.missions.changes import MISSING, Place, Tables, place_of, value_at
-from tandemlift.missions.refusals import problems_in
 
 SCALED = (
     *("stiffness", "damping", "lag", "gain", "speed"),
     *("look_ahead", "approach_gain", "trim_rate", "yaw_gain", "yaw_damping"),
 )
 GRIP = "person.grip"
-LONGER = 1.6  # times the mission's duration
+Drawn = dict[str, Distribution]
 
 
 def random_person() -> Drawn:
@@ -36,25 +33,6 @@ def random_person() -> Drawn:
         GRIP: Uniform(distribution="uniform", low=-1.0, high=1.0),
         "disturbance.force": Horizontal(distribution="horizontal", low=0.0, high=1.0),
     }
-
-
-def check_has_person(model: str, name: str) -> None:
-    """Check that a mission has a person: `model` is that of `[person]`, `name` the mission's.
-
-    Raises:
-        InputError: it has none.
-    """
-    if model == "none":
-        raise InputError(f"study.persons = 'random': mission {name!r} has no person; person.model must not be 'none'")
-
-
-def person_changes(model: str, duration: float, drawn: dict[str, Any]) -> dict[str, Any]:
-    """The changes of a mission with this `person.model` and duration [s] for a drawn person."""
-    changes = {key: value for key, value in drawn.items() if key != GRIP or model == "steer"}
-    return {"mission.duration": LONGER * duration, **changes}
-
-
-Drawn = dict[str, Distribution]
 
 
 def drawn_keys(tables: Tables) -> Drawn:
@@ -76,11 +54,7 @@ def _distribution(given: object, tables: Tables, place: Place) -> Distribution:
     if name not in DISTRIBUTIONS:
         hint = suggestion(name, DISTRIBUTIONS) if isinstance(name, str) else ""
         raise InputError(f"{where}.distribution = {shown(name)}: must be one of {known}.{hint}")
-    try:
-        return DISTRIBUTIONS[name].model_validate(given)
-    except ValidationError as error:
-        problems = problems_in(DISTRIBUTIONS[name], error, tables, place)
-        raise InputError("\n".join(problem.sentence for problem in problems)) from None
+    return validated(DISTRIBUTIONS[name], given, tables, place)
 
 
 def dimensions_of(drawn: Drawn) -> int:

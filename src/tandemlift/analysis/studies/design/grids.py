@@ -5,13 +5,12 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Field, ValidationError, model_validator
+from pydantic import Field, model_validator
 
-from tandemlift.analysis.studies.design.keys import by_key, key_at, leaves_of
+from tandemlift.analysis.studies.design.keys import by_key, key_at, leaves_of, validated
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.keys import Table, key, must
 from tandemlift.missions.changes import Place, Tables
-from tandemlift.missions.refusals import problems_in
 
 MOST_VALUES = 1_000_000  # of one key
 
@@ -54,20 +53,10 @@ def grid_axes(tables: Tables) -> dict[str, list[Any]]:
 def _axis(tables: Tables, place: Place, given: object) -> list[Any]:
     where = f"grid.{key_at(place)}"
     if isinstance(given, dict) and given:
-        return _range(tables, ("grid", *place)).values
+        return validated(Range, given, tables, ("grid", *place)).values
     if not isinstance(given, list) or not given:
         allowed = "a list of at least one value, or a table such as {low = 1.0, high = 8.0, count = 8}"
         raise InputError(f"{where} = {shown(given)}: must be {allowed}")
     if any(value in given[:i] for i, value in enumerate(given)):
         raise InputError(f"{where} = {shown(given)}: must be without repetition")
     return given
-
-
-def _range(tables: Tables, place: Place) -> Range:
-    given: Any = tables
-    for part in place:
-        given = given[part]
-    try:
-        return Range.model_validate(given)
-    except ValidationError as error:
-        raise InputError("\n".join(p.sentence for p in problems_in(Range, error, tables, place))) from None

@@ -1,12 +1,18 @@
-"""Tables of a study file by dotted mission keys, and lists of a varied key as columns."""
+"""Tables of a study file by dotted mission keys, checked; and lists of a varied key as columns."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from typing import Any
+from typing import Any, TypeVar
+
+from pydantic import ValidationError
 
 from tandemlift.core.errors import InputError, shown
-from tandemlift.missions.changes import Place
+from tandemlift.core.keys import Table
+from tandemlift.missions.changes import Place, Tables
+from tandemlift.missions.refusals import problems_in
+
+T = TypeVar("T", bound=Table)
 
 
 def leaves_of(
@@ -39,6 +45,19 @@ def by_key(entries: Iterable[tuple[Place, Any]], where: str) -> dict[str, Any]:
             raise InputError(f"{where}.{key} = {shown(value)}: the key is given twice, also in quotes; give it once")
         found[key] = value
     return found
+
+
+def validated(model: type[T], given: object, tables: Tables, place: Place) -> T:
+    """A table of a study file, at a place of all its tables.
+
+    Raises:
+        InputError: it is not as `model` asks, with a sentence for each problem.
+    """
+    try:
+        return model.model_validate(given)
+    except ValidationError as error:
+        problems = problems_in(model, error, tables, place)
+        raise InputError("\n".join(problem.sentence for problem in problems)) from None
 
 
 def changes_in(tables: Mapping[str, Any], where: str = "set") -> dict[str, Any]:

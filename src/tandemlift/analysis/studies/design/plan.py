@@ -9,12 +9,11 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 from tandemlift.analysis.studies.design.draws import (
+    GRIP,
     Drawn,
     absolute,
-    check_has_person,
     dimensions_of,
     drawn_keys,
-    person_changes,
     random_person,
     values_at,
 )
@@ -30,6 +29,7 @@ from tandemlift.missions.loading import MissionTemplate
 
 SEED = "mission.seed"
 TRIED = 8  # rows of each variant that are formed before anything flies
+LONGER = 1.6  # times the mission's duration, with random persons: some are slow
 
 
 class StudyRow(NamedTuple):
@@ -105,18 +105,19 @@ class StudyPlan:
         """Draw persons, too, except for keys that the study sets."""
         for variant in self.variants:
             own = variant.template(self.common).mission({})
-            check_has_person(own.person.model, own.mission.name)
+            if own.person.model == "none":
+                name = f"mission {own.mission.name!r}"
+                raise InputError(f"study.persons = 'random': {name} has no person; person.model must not be 'none'")
         self.persons = {key: distribution for key, distribution in random_person().items() if key not in said}
         self.drawn = {**self.drawn, **self.persons}
 
     @property
     def sizes(self) -> str:
         """The factors of the number of rows, in words."""
-        axes = [(len(values), f"of {key}") for key, values in self.grid.items()]
         counts = [
             (len(self.variants), "missions, controllers and engines"),
             (len(self.cases), "cases"),
-            *axes,
+            *((len(values), f"of {key}") for key, values in self.grid.items()),
             (self.point_count, "draws"),
             (self._seeds, "seeds"),
         ]
@@ -130,10 +131,6 @@ class StudyPlan:
     def rows_per_chunk(self) -> int:
         """Rows in one file of results."""
         return self.settings.study.rows_per_chunk or default_rows_per_chunk(self.count)
-
-    @cached_property
-    def _axes(self) -> list[list[Any]]:
-        return list(self.grid.values())
 
     @cached_property
     def _templates(self) -> list[MissionTemplate]:
@@ -166,14 +163,15 @@ class StudyPlan:
         return rows
 
     def _row(self, number: int, cell: int, draw: int, repeat: int, drawn: dict[str, Any]) -> StudyRow:
-        study, varied = self.settings.study, dict[str, Any]()
-        for key, values in reversed(list(self.grid.items())):
+        study, varied = self.settings.study, dict.fromkeys(self.grid, None)
+        for key, values in reversed(self.grid.items()):  # the last key varies fastest
             cell, i = divmod(cell, len(values))
             varied[key] = values[i]
-        varied = {key: varied[key] for key in self.grid}
         variant, place = divmod(cell, len(self.cases))
         case = self.cases[place]
-        varied |= {key: self._absolute(key, value, variant) for key, value in drawn.items()}
+        for key, value in drawn.items():
+            _, tables = self._own[variant]
+            varied[key] = absolute(self.drawn[key], key, value, tables, self.variants[variant].mission)
         changes = {**self.common, **changes_in(case.set), **varied}
         if study.persons == "random":
             changes, varied = self._with_person(changes, varied, variant)
@@ -184,16 +182,11 @@ class StudyPlan:
     def _with_person(
         self, changes: dict[str, Any], varied: dict[str, Any], variant: int
     ) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Changes and varied keys of a row with a drawn person; a grip is drawn for those who steer alone."""
         mission, _ = self._own[variant]
-        drawn = {key: varied[key] for key in self.persons}
-        made = person_changes(mission.person.model, mission.mission.duration, drawn)
-        left_out = self.persons.keys() - made.keys()
-        own = {key: value for key, value in changes.items() if key not in left_out}
-        return {**made, **own}, {key: value for key, value in varied.items() if key not in left_out}
-
-    def _absolute(self, key: str, value: Any, variant: int) -> Any:
-        """The value of a draw, which may be relative to the mission's own."""
-        return absolute(self.drawn[key], key, value, self._own[variant][1], self.variants[variant].mission)
+        if mission.person.model != "steer" and GRIP in self.persons:
+            changes, varied = ({k: v for k, v in keys.items() if k != GRIP} for keys in (changes, varied))
+        return {"mission.duration": LONGER * mission.mission.duration, **changes}, varied
 
     def mission(self, row: StudyRow) -> Mission:
         """The mission of a row.

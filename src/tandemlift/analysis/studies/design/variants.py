@@ -29,8 +29,7 @@ RECORDING = ("person", "recording")
 
 def variant_from(said: Mapping[str, Any]) -> Variant:
     """A variant from its JSON form."""
-    files: dict[str, Any] = {key: tuple(said[key]) for key in ("controller_file", "recording")}
-    return Variant(said["mission"], said["controller"], said["engine"], said["tables"], **files)
+    return Variant(**said)._replace(controller_file=tuple(said["controller_file"]), recording=tuple(said["recording"]))
 
 
 class Variant(NamedTuple):
@@ -104,10 +103,10 @@ def _variant(mission: str, chosen: str | None, folder: Path) -> Variant:
     _check_known(value_at(tables, ("controller", "name")), f"study.missions: {mission}: controller.name")
     with without_flight_warnings():
         loaded = check(tables, layers[-1].source, layers)
-    name = loaded.controller.name
-    own = controller(name)
-    file = () if _is_ours(name) else (Path(file_of(own)).name, controller_text(own))
-    return Variant(loaded.mission.name, name, "compiled", tables, file, _recording(tables))
+    own = controller(loaded.controller.name)
+    is_ours = own.start.__module__.startswith("tandemlift.")
+    file = () if is_ours else (Path(file_of(own)).name, controller_text(own))
+    return Variant(loaded.mission.name, own.name, "compiled", tables, file, _recording(tables))
 
 
 def _controller(chosen: str, folder: Path) -> Controller:
@@ -122,10 +121,6 @@ def _check_known(name: object, key: str) -> None:
     if isinstance(name, str) and name not in CONTROLLERS:
         error = unknown("controller", name, sorted(CONTROLLERS))
         raise InputError(f"{key}: {error} For one of your own, name its file in study.controllers.")
-
-
-def _is_ours(name: str) -> bool:
-    return controller(name).start.__module__.startswith("tandemlift.")
 
 
 def _recording(tables: Tables) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""What can be read of many flights that step together: time, channels, state, outcome, metrics."""
+"""Readings of many flights that step together: time, channels, state, outcome, metrics."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class BlockReadings:
 
     @property
     def _steps_taken(self) -> NDArray[np.int64]:
-        """By each flight."""
+        """The steps that each flight has taken (lanes,)."""
         begun = self._memory.begun.reshape(-1)[: self.lanes]
         return np.where(self._ended.over, self._ended.steps, self._k - begun)
 

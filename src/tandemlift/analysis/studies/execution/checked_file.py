@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import pyarrow
 
 ABOUT = "tandemlift."  # prefix of a file's metadata
-CHUNK = f"{ABOUT}chunk".encode()
+CHUNK = f"{ABOUT}chunk"
 
 
 class DamagedFile(InputError):
@@ -25,12 +25,13 @@ class DamagedFile(InputError):
         super().__init__(f"{path} is damaged: {why}. {again}")
 
 
-def write_checked(table: pyarrow.Table, path: Path) -> None:
+def write_checked(table: pyarrow.Table, path: Path, about: Mapping[str, str]) -> None:
     """Write the file of a chunk atomically.
 
     Args:
         table: of its rows, at least one.
         path: of the file, whose name without the suffix is that of the chunk.
+        about: further metadata of the file.
 
     Raises:
         InputError: the file cannot be written: no space left, or no right to.
@@ -38,7 +39,7 @@ def write_checked(table: pyarrow.Table, path: Path) -> None:
     from pyarrow import BufferOutputStream, parquet
 
     written = BufferOutputStream()
-    named = table.replace_schema_metadata({**(table.schema.metadata or {}), CHUNK: path.stem.encode()})
+    named = table.replace_schema_metadata({f"{ABOUT}{key}": value for key, value in about.items()} | {CHUNK: path.stem})
     parquet.write_table(named, written, compression="zstd", row_group_size=len(table), write_page_checksum=True)
     try:
         with atomic_write(path) as partial, partial.open("wb") as file:
@@ -79,7 +80,7 @@ class CheckedFile:
         except (ArrowException, OSError) as error:
             raise DamagedFile(path, error) from None
         self.names, self.rows, self.about = schema.names, self._parquet.metadata.num_rows, schema.metadata or {}
-        if self.about.get(CHUNK) != path.stem.encode():
+        if self.about.get(CHUNK.encode()) != path.stem.encode():
             raise DamagedFile(path, "it is not as it was written, or holds other rows")
 
     def read(self, names: Collection[str] | None = None) -> pyarrow.Table:

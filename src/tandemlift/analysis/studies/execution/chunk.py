@@ -63,9 +63,9 @@ def study_digest(contents: Mapping[str, Any]) -> str:
     return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()
 
 
-def chunk_count(plan: StudyPlan) -> int:
-    """Number of chunks of a study."""
-    return -(-plan.count // plan.rows_per_chunk)
+def chunk_spans(count: int, rows_per_chunk: int) -> list[tuple[int, int]]:
+    """The first row of each chunk of a study of `count` rows, and the number after its last row."""
+    return [(first, min(count, first + rows_per_chunk)) for first in range(0, count, rows_per_chunk)]
 
 
 def chunk_names(digest: str, count: int, rows_per_chunk: int) -> Iterator[str]:
@@ -76,22 +76,12 @@ def chunk_names(digest: str, count: int, rows_per_chunk: int) -> Iterator[str]:
         count: number of rows.
         rows_per_chunk: rows of each chunk but the last.
     """
-    for i in range(-(-count // rows_per_chunk)):
-        first, last = i * rows_per_chunk, min(count, (i + 1) * rows_per_chunk)
+    for first, last in chunk_spans(count, rows_per_chunk):
         yield hashlib.sha256(f"{digest} {first} {last}".encode()).hexdigest()[:32]
 
 
-def chunk_of(plan: StudyPlan, index: int, name: str) -> Chunk:
-    """A chunk of a study, ready to be flown anywhere."""
-    first = index * plan.rows_per_chunk
-    last = min(plan.count, first + plan.rows_per_chunk)
+def chunk_of(plan: StudyPlan, first: int, last: int, name: str) -> Chunk:
+    """The rows first ≤ number < last of a study, ready to be flown anywhere."""
     rows = tuple(plan.rows(first, last))
-    used = sorted({row.variant for row in rows})
-    return Chunk(
-        name=name,
-        first=first,
-        last=last,
-        rows=rows,
-        variants={i: plan.variants[i] for i in used},
-        keep=plan.settings.keep,
-    )
+    variants = {i: plan.variants[i] for i in sorted({row.variant for row in rows})}
+    return Chunk(name, first, last, rows, variants, plan.settings.keep)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,13 +14,13 @@ from tandemlift.analysis.studies.design.plan import SEED, StudyRow
 from tandemlift.analysis.studies.design.settings import REFUSED
 from tandemlift.analysis.studies.execution.checked_file import write_checked
 from tandemlift.analysis.studies.execution.chunk import Chunk
-from tandemlift.core.errors import extra
+from tandemlift.core.errors import InputError, extra
 from tandemlift.core.types import Array
 from tandemlift.flight.channels import DERIVED
 from tandemlift.flight.record import Flight
 
 Columns = dict[str, list[Any]]
-Result = tuple[StudyRow, Mapping[str, Any] | None, str]  # a row, its metrics, or the reason of its refusal
+Result = Mapping[str, Any] | InputError  # the metrics of a row, or the reason of its refusal
 
 ALWAYS = ("outcome", "failure", "findings", "events")  # metrics with columns of their own
 NOT_KEPT = ("wall_s",)  # not reproducible
@@ -36,14 +36,14 @@ def columns_of_rows(chunk: Chunk, results: Sequence[Result], flights: Mapping[in
         results: of its rows, in order.
         flights: those with kept channels, by the row's number.
     """
-    rows = [_row(chunk, *result) for result in results]
+    rows = [_row(chunk, row, result) for row, result in zip(chunk.rows, results, strict=True)]
     for number, flight in flights.items():
         rows[number - chunk.first] |= _channels(flight, chunk.keep.channels)
     names = dict.fromkeys(name for row in rows for name in row)
     return {name: [row.get(name) for row in rows] for name in names}
 
 
-def _row(chunk: Chunk, row: StudyRow, metrics: Mapping[str, Any] | None, refusal: str) -> dict[str, Any]:
+def _row(chunk: Chunk, row: StudyRow, metrics: Result) -> dict[str, Any]:
     variant = chunk.variants[row.variant]
     found: dict[str, Any] = {
         "row": row.number,
@@ -56,9 +56,9 @@ def _row(chunk: Chunk, row: StudyRow, metrics: Mapping[str, Any] | None, refusal
     }
     for key, value in row.varied.items():
         found |= columns_of(key, value)
-    if metrics is None:
+    if isinstance(metrics, InputError):
         none = {"findings": "[]", "finding_kinds": "", "events": "[]"}  # every file has these columns
-        return {**found, "outcome": REFUSED, "reason": refusal, **none}
+        return {**found, "outcome": REFUSED, "reason": str(metrics), **none}
     findings = metrics["findings"]
     found |= {
         "outcome": metrics["outcome"],
@@ -67,16 +67,12 @@ def _row(chunk: Chunk, row: StudyRow, metrics: Mapping[str, Any] | None, refusal
         "finding_kinds": ",".join(dict.fromkeys(kind for _, kind, _ in findings)),
         "events": json.dumps(metrics["events"]),
     }
-    for name in _kept(chunk.keep.metrics, metrics):
-        if metrics[name] is not None:  # the other rows determine whether it is one number or a list
-            found |= columns_of(name, metrics[name])
+    chosen = chunk.keep.metrics or metrics
+    for name, value in metrics.items():
+        # a row without a number does not tell whether it is one number or a list: the other rows do
+        if name in chosen and name not in (*ALWAYS, *NOT_KEPT) and value is not None:
+            found |= columns_of(name, value)
     return found
-
-
-def _kept(chosen: Sequence[str], metrics: Mapping[str, Any]) -> Iterable[str]:
-    """The names of the metrics that go into the table, beside those of `ALWAYS`."""
-    known = [name for name in metrics if name not in (*ALWAYS, *NOT_KEPT)]
-    return [name for name in known if not chosen or name in chosen]
 
 
 def _channels(flight: Flight, names: Sequence[str]) -> dict[str, Array]:
@@ -100,9 +96,7 @@ def write_columns(columns: Columns, path: Path, about: Mapping[str, str]) -> Non
     with extra("study", "a study"):
         import pyarrow as pa
 
-    arrays = {name: _array(pa, name, values) for name, values in columns.items()}
-    table = pa.table(arrays).replace_schema_metadata({f"tandemlift.{key}": value for key, value in about.items()})
-    write_checked(table, path)
+    write_checked(pa.table({name: _array(pa, name, values) for name, values in columns.items()}), path, about)
 
 
 def _array(pa: Any, name: str, values: list[Any]) -> Any:

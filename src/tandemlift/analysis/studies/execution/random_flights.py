@@ -6,13 +6,12 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from tandemlift.analysis.studies.design.settings import REFUSED
-from tandemlift.analysis.studies.design.statistics import CONFIDENCE, upper_bound
+from tandemlift.analysis.studies.design.statistics import upper_bound
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution.running import fly_study
 from tandemlift.analysis.studies.execution.store import open_folder
-from tandemlift.core.files import atomic_write
+from tandemlift.core.files import write_file
 from tandemlift.core.phases import FAILURES
-from tandemlift.core.types import Progress
 from tandemlift.missions import Mission, format_toml, tables_of
 
 MASS, INERTIA, DELAY = 0.1, 0.15, 0.005  # half widths of factors; s beyond the mission's delay
@@ -33,7 +32,7 @@ class RandomFlight(NamedTuple):
 
 def probability_bound(count: int, flights: int) -> float:
     """The upper bound of Clopper and Pearson on the probability of what happened in some flights, 95 % confidence."""
-    return upper_bound(count, flights, CONFIDENCE)
+    return upper_bound(count, flights)
 
 
 def study_of(mission: Mission, file: Path, flights: int) -> dict[str, Any]:
@@ -51,26 +50,22 @@ def study_of(mission: Mission, file: Path, flights: int) -> dict[str, Any]:
     return {"study": about, "draw": draw, "keep": {"metrics": ["outcome", "findings"]}}
 
 
-def random_flights(
-    mission: Mission, folder: Path, flights: int, progress: Progress | None = None
-) -> list[RandomFlight]:
+def random_flights(mission: Mission, folder: Path, flights: int) -> list[RandomFlight]:
     """Fly a mission with parameters drawn at random; what the folder already holds is not flown again.
 
     Args:
         mission: to be flown; it is written beside the folder.
         folder: of the study.
         flights: their number.
-        progress: called with (flights flown, flights in all).
 
     Raises:
         InputError: the folder holds another study, or an optional package is missing (extra: study).
     """
     file = folder.parent / f"{mission.mission.name}.toml"
-    with atomic_write(file) as partial:
-        partial.write_text(format_toml(tables_of(mission)), "utf-8")
+    write_file(file, format_toml(tables_of(mission)))
     plan = load_plan(study_of(mission, file, flights))
     store = open_folder(plan, folder)
-    fly_study(plan, store, progress=progress)
+    fly_study(plan, store)
     from pyarrow import parquet  # which the folder needs
 
     files = [parquet.read_table(store.files.file(name), columns=["outcome", "finding_kinds"]) for name in store.names()]

@@ -6,19 +6,17 @@ processes and machines that share a folder, and gives the same rows.
 
 from __future__ import annotations
 
-import os
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
-from contextlib import contextmanager
 from functools import partial
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple
 
 from tandemlift.analysis.studies.design.plan import StudyPlan
-from tandemlift.analysis.studies.execution.chunk import chunk_of
+from tandemlift.analysis.studies.execution.chunk import chunk_of, chunk_spans
 from tandemlift.analysis.studies.execution.flying import fly_chunk
 from tandemlift.analysis.studies.execution.store import ChunkFiles, StudyFolder
-from tandemlift.analysis.studies.execution.workers import ExecutorWorkers, Task, ThreadWorkers, thread_workers
+from tandemlift.analysis.studies.execution.workers import Task, Workers, workers_of
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Progress
 
@@ -34,7 +32,6 @@ class StudyPart(NamedTuple):
 
 
 WHOLE = StudyPart()
-Workers: TypeAlias = ThreadWorkers | ExecutorWorkers
 
 
 def part_from(text: str) -> StudyPart:
@@ -59,14 +56,16 @@ class StudyWork:
 
     def __init__(self, plan: StudyPlan, names: Sequence[str]) -> None:
         self.names, self._plan = names, plan
+        self._spans = chunk_spans(plan.count, plan.rows_per_chunk)
 
     def size(self, i: int) -> int:
         """Number of rows of chunk i."""
-        return min(self._plan.rows_per_chunk, self._plan.count - i * self._plan.rows_per_chunk)
+        first, last = self._spans[i]
+        return last - first
 
     def task(self, i: int) -> Task:
         """The function that flies chunk i, on any worker."""
-        return partial(fly_chunk, chunk_of(self._plan, i, self.names[i]))
+        return partial(fly_chunk, chunk_of(self._plan, *self._spans[i], self.names[i]))
 
 
 def run_chunks(
@@ -193,21 +192,11 @@ def fly_study(
         Number of chunks flown.
 
     Raises:
-        InputError: it cannot be flown there, or it cannot be written; finished
-            chunks are kept.
+        InputError: it cannot be flown there, or it cannot be written; finished chunks are kept.
     """
     try:
-        with _workers(threads, executor) as workers:
+        with workers_of(threads, executor) as workers:
             return run_chunks(StudyWork(plan, folder.names()), folder.files, workers, part, progress)
     except KeyboardInterrupt:
         say(f"stopped: finished rows are kept in {folder.path}; start the same study again to continue")
         raise
-
-
-@contextmanager
-def _workers(threads: int | None, executor: Executor | None) -> Iterator[Workers]:
-    if executor is not None:
-        yield ExecutorWorkers(executor, threads or getattr(executor, "_max_workers", None) or os.cpu_count() or 1)
-    else:
-        with thread_workers(threads or os.cpu_count() or 1) as workers:
-            yield workers

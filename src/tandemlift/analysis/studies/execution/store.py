@@ -88,7 +88,7 @@ class ChunkFiles:
         Raises:
             InputError: the file cannot be written.
         """
-        write_columns(columns, self.file(name), {**self._about, "chunk": name, "version": __version__})
+        write_columns(columns, self.file(name), {**self._about, "version": __version__})
 
     def clean(self) -> None:
         """Remove the half-written files and the claims of processes that were killed."""
@@ -144,7 +144,7 @@ def open_folder(plan: StudyPlan, path: Path) -> StudyFolder:
     """
     with extra("study", "a study"):  # before anything flies
         import pyarrow  # noqa: F401
-    check_kept(plan)
+    check_kept(plan)  # else a name that no flight has would only be missing in the table
     contents = _contents(plan)
     if (path / PLAN).exists():
         folder = StudyFolder(path)

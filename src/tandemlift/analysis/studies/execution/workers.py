@@ -12,18 +12,14 @@ import platform
 from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, TypeAlias
 
 from tandemlift.analysis.studies.execution.chunk import sources_digest
 from tandemlift.analysis.studies.execution.columns import Columns
 from tandemlift.core.errors import InputError
 
-
-class OtherSources(InputError):
-    """A worker has other sources than the study that it is to fly."""
-
-
-Task = Callable[[], Columns]  # flies a chunk; can be pickled
+Task: TypeAlias = Callable[[], Columns]
+"""A function that flies a chunk; it can be pickled."""
 
 
 class ThreadWorkers:
@@ -78,6 +74,9 @@ class ExecutorWorkers:
         return columns
 
 
+Workers: TypeAlias = ThreadWorkers | ExecutorWorkers
+
+
 def _ended(error: Exception) -> InputError:
     return InputError(f"the executor has ended: {error} Finished rows are kept; start the study again to continue")
 
@@ -93,24 +92,28 @@ def fly_packed(sources: str, task: bytes) -> bytes:
         The columns of its table, pickled.
 
     Raises:
-        OtherSources: this process has other sources.
+        InputError: this process has other sources.
     """
     if sources != sources_digest():
-        raise other_sources(f"{platform.node()}, process {os.getpid()}", sources_digest(), sources)
+        raise InputError(
+            f"worker {platform.node()}, process {os.getpid()}: its tandemlift has the sources {sources_digest()}, this "
+            f"study those with digest {sources}; install the same version on both. Finished rows are kept"
+        )
     return pickle.dumps(pickle.loads(task)())
 
 
-def other_sources(worker: str, there: str, here: str) -> OtherSources:
-    """The error for a worker with sources of another digest."""
-    return OtherSources(
-        f"worker {worker}: its tandemlift has the sources {there}, this study those with digest {here}; "
-        "install the same version on both. Finished rows are kept"
-    )
-
-
 @contextmanager
-def thread_workers(count: int) -> Iterator[ThreadWorkers]:
-    """Threads of this process; after an error or Ctrl-C, their chunks are not waited for."""
+def workers_of(threads: int | None, executor: Executor | None) -> Iterator[Workers]:
+    """Threads of this process, or the workers of an executor.
+
+    Args:
+        threads: their number; by default one for each processor, or what the executor has.
+        executor: None for threads of this process; after an error or Ctrl-C, their chunks are not waited for.
+    """
+    if executor is not None:
+        yield ExecutorWorkers(executor, threads or getattr(executor, "_max_workers", None) or os.cpu_count() or 1)
+        return
+    count = threads or os.cpu_count() or 1
     pool = ThreadPoolExecutor(count, "study")
     try:
         yield ThreadWorkers(pool, count)

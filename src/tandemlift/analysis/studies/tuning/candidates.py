@@ -46,12 +46,12 @@ class Trial(NamedTuple):
         return np.array([outcome in FAILURES or outcome in (REFUSED, NO_NUMBER, FOUND) for outcome in self.outcomes])
 
     def strictly(self) -> Trial:
-        """The same, but a flight with findings is bad."""
+        """This trial, but a flight with findings is bad."""
         pairs = zip(self.outcomes, self.metrics, self.bad, strict=True)
         return self._replace(outcomes=tuple(FOUND if m.get("findings") and not bad else o for o, m, bad in pairs))
 
     def measured(self, goals: Sequence[Goal], sizes: Sequence[int]) -> Trial:
-        """The same with the values of goals, of so many components each."""
+        """This trial with the values of goals, of so many components each."""
         found = [[goal.measured(m) for goal in goals] for m in self.metrics]
         outcomes = [
             NO_NUMBER if not bad and None in row else outcome
@@ -93,7 +93,7 @@ class Cost(NamedTuple):
 
     @property
     def rank(self) -> float:
-        """One number that orders costs: first by bad outcomes, then by ratio."""
+        """One number that orders costs: first by bad outcomes, then by ratio, whose term stays below 1."""
         return self.bad + self.ratio / (1.0 + self.ratio)
 
 

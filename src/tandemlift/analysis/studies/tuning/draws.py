@@ -110,7 +110,7 @@ class DrawSource:
         """
         study = self.plan.settings.study
         what = "draws" if self.plan.drawn else "seeds"
-        count = max(1, -(-least * getattr(study, what) // self.plan.count))
+        count = max(1, -(-least * getattr(study, what) // self.plan.count))  # rounded up
         if what == "draws" and study.sampling == "sobol":
             count = 1 << (count - 1).bit_length()
         plan = load_plan(self._study, {f"study.{what}": count, "study.seed": study.seed + seed})

@@ -45,7 +45,7 @@ class Goal(NamedTuple):
         return int(last) if last.isdigit() else None
 
     def with_targets(self, cases: Mapping[str, Mapping[str, Any]]) -> Goal:
-        """The same goal with the targets that cases have for it, by name of the case."""
+        """This goal with the targets that cases have for it, by name of the case."""
         targets = {case: given[self.name] for case, given in cases.items() if self.name in given}
         return self._replace(targets={**targets, **self.targets})
 

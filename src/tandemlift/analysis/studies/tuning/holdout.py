@@ -119,10 +119,8 @@ def _verdict(costs: tuple[Cost, Cost], score: tuple[float, float] | None, draws:
     if new.ratio >= old.ratio:
         return False, change
     if aim == "mean" and score is not None and score[1] >= 0.0:
-        return (
-            False,
-            f"{change}, which may be chance: the median difference is between {score[0]:.2g} and {score[1]:.2g}",
-        )
+        chance = f"the median difference is between {score[0]:.2g} and {score[1]:.2g}"
+        return False, f"{change}, which may be chance: {chance}"
     return True, change
 
 

@@ -91,8 +91,8 @@ class Tuning(NamedTuple):
     def to_toml(self, folder: Path = Path()) -> str:
         """The mission with the new values as a file for a folder: it extends the one that was tuned."""
         source, resolved = self.task.source, tables_of(self.mission)
-        path = source.name if source.name in built_in() else _relative(source.name, folder)
-        tables: Tables = {"extends": path}
+        path = os.path.relpath(Path(source.name).resolve(), folder.resolve())
+        tables: Tables = {"extends": source.name if source.name in built_in() else Path(path).as_posix()}
         for place in _places((*source.changes, *self.changes, "mission.name"), whole=source.controller is not None):
             value = value_at(resolved, place)
             if value is not MISSING:
@@ -143,10 +143,6 @@ class Tuning(NamedTuple):
 def present_values(task: Task) -> Values:
     """The present values of a task's parameters, exactly."""
     return tuple(p.own if p.place is None else p.own[p.place] for p in task.parameters)
-
-
-def _relative(name: str, folder: Path) -> str:
-    return Path(os.path.relpath(Path(name).resolve(), folder.resolve())).as_posix()
 
 
 def _places(keys: Iterable[str], *, whole: bool) -> Iterable[Place]:

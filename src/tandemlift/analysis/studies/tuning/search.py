@@ -42,12 +42,10 @@ class TuningSearch:
         progress: TuneProgress | None = None,
     ) -> None:
         self.task, self.draws, self.budget, self.progress = task, draws, budget, progress
-        self.tried = [self._judged(*present)]
+        values, trial = present
+        self.tried = [CandidateResult(values, task.cost(trial))]
         self.best = self.tried[0]
         self.ended = ""
-
-    def _judged(self, values: Values, trial: Trial) -> CandidateResult:
-        return CandidateResult(values, self.task.cost(trial))
 
     @property
     def records(self) -> tuple[tuple[int, Values], ...]:
@@ -77,9 +75,9 @@ class TuningSearch:
 
     def _try_population(self, optimiser: EvolutionStrategy) -> None:
         task, points = self.task, optimiser.ask()
-        values = [tuple(p.as_flown(x) for p, x in zip(task.parameters, point, strict=True)) for point in points]
+        values = [task.as_flown(point) for point in points]
         trials = task.fly_while_hopeful([task.changes(v) for v in values], self.draws)
-        tried = [self._judged(v, trial) for v, trial in zip(values, trials, strict=True)]
+        tried = [CandidateResult(v, task.cost(trial)) for v, trial in zip(values, trials, strict=True)]
         optimiser.tell(points, [one.cost.rank for one in tried])
         self.tried += tried
         self.best = min([self.best, *tried], key=lambda t: t.cost.rank)
@@ -108,9 +106,8 @@ def choose(
     task, present = search.task.for_draws(draws), search.tried[0]
     ranked = sorted(search.tried[1:], key=lambda tried: tried.cost.rank)
     finalists = list(dict.fromkeys(tried.values for tried in ranked))[:FINALISTS]
-    centre = tuple(p.as_flown(x) for p, x in zip(task.parameters, optimiser.centre, strict=True))
     once_best = [values for _, values in search.records[-FINALISTS:]]
-    finalists = list(dict.fromkeys([*finalists, *once_best, centre]))
+    finalists = list(dict.fromkeys([*finalists, *once_best, task.as_flown(optimiser.centre)]))
     early = draws[: len(draws) // EARLY]
     judge = search.task.for_draws(early)
     costs = [judge.cost(trial) for trial in judge.fly([task.changes(values) for values in finalists], early)]

@@ -55,6 +55,10 @@ class Task(NamedTuple):
     threads: int | None
     strict: bool = False
 
+    def as_flown(self, point: Sequence[Any]) -> Values:
+        """The values of a point that an optimiser proposes, as they are flown."""
+        return tuple(p.as_flown(x) for p, x in zip(self.parameters, point, strict=True))
+
     def changes(self, values: Values) -> Changes:
         """The values of parameters as changes of the mission."""
         return changes_at(self.parameters, values)
@@ -81,7 +85,7 @@ class Task(NamedTuple):
         return cost_of(trial, self.goals, self.scales, self.aim)
 
     def for_draws(self, draws: Sequence[Draw]) -> Task:
-        """The same task on other draws: goals without a target of the draw's case keep their scales."""
+        """This task on other draws: goals without a target of the draw's case keep their scales."""
         scales = [
             np.array([_of_case(goal, draw.case, scale) for draw in draws])
             for goal, scale in zip(self.goals, self.scales, strict=True)

@@ -1,22 +1,25 @@
-"""The inputs of a linear model: groups of numbers of a step's inputs, by name."""
+"""Inputs and outputs of a linear model: numbers of a step's inputs and columns of its sample, with names and units."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from tandemlift.analysis.linearization.step_graph import NO_PUSH
 from tandemlift.core.errors import InputError, unknown
-from tandemlift.core.types import flat, unflat
-from tandemlift.core.vector import Absent, Quat, Vec3
+from tandemlift.core.types import flat, leaves, unflat
+from tandemlift.core.vector import Absent, Quat
+from tandemlift.flight.channels import channel_of
+from tandemlift.flight.data_frames import column_names
 from tandemlift.flight.state_variables import Variable
 from tandemlift.parts.mechanics.push import PointPush, PushSamples, push_at
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.wind import gust_velocity
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import GAUSSIAN, GUST, InputTables, leaf_offset
+from tandemlift.simulation.results import channels_of
 
 LOOP = ("push_force", "push_moment", "disturbance_force", "disturbance_moment", "wind_velocity")
 BODY = ("rotor_thrusts", *LOOP)
@@ -110,18 +113,32 @@ def push_sum(tables: InputTables, t: float) -> PointPush:
     return total
 
 
-def operating_values(
-    columns: Sequence[InputColumn], given: Mapping[str, Sequence[float]], flight: Sequence[float], moment: Vec3
-) -> list[float]:
-    """The values of inputs at the point; NaN for a rotor's thrust, which the step decides."""
-    axes = {"x": moment.x, "y": moment.y, "z": moment.z}
-    found = []
-    for column in columns:
-        kind, index, _ = column.seeds[0]
-        if column.variable.name.startswith("push_moment"):
-            found.append(axes[column.variable.name[-1]])
-        elif kind in ("thrust", "offset"):
-            found.append(float("nan") if kind == "thrust" else 0.0)
-        else:
-            found.append(flight[index] if kind == "fly" else given[kind][index])
-    return found
+class Outputs(NamedTuple):
+    """The chosen columns of a sample, and their variables."""
+
+    columns: tuple[int, ...]
+    variables: tuple[Variable, ...]
+
+
+def outputs_from(sample: object, chosen: Sequence[str] | None, default: Sequence[str]) -> Outputs:
+    """The columns of channels.
+
+    Args:
+        sample: the layout of a sample.
+        chosen: names of channels; None for those of `default` that the flight has.
+        default: names of channels.
+
+    Raises:
+        InputError: there is no such channel.
+    """
+    row = np.arange(leaves(sample), dtype=np.float64)[None, :]
+    places = {name: at[0] for name, at in channels_of(sample, row)}
+    for name in chosen or ():
+        if name not in places:
+            raise unknown("output", name, places)
+    columns, variables = list[int](), list[Variable]()
+    for name in [name for name in default if name in places] if chosen is None else chosen:
+        channel, at = channel_of(name), places[name]
+        columns += np.atleast_1d(at).astype(int).tolist()
+        variables += [Variable(column, channel.unit) for column in column_names(name, channel, at.shape)]
+    return Outputs(tuple(columns), tuple(variables))
