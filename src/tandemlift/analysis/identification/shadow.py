@@ -13,7 +13,6 @@ from __future__ import annotations
 import warnings
 from collections.abc import Container
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -32,8 +31,8 @@ ENGINE = "log"
 RATES = IMU[1]
 ELSEWHERE = 0.5  # m: a log that begins farther from the mission's start is of another flight
 SPARSE = 0.8  # of the mission's rate: with fewer samples the estimators take one sample for several
+EXACT = {"errors": "none", "joints": {"force_resolution": 0.0, "torque_resolution": 0.0}}
 HOLDERS = ((("readings",), ()), (("sensing",), ("reading",)))  # of the last readings, in a flight's state
-ERRORS = ("noise", "bias", "drift", "resolution", "misalignment")  # keys of sensors, at the end of their names
 
 
 def shadow(log: Log, mission: MissionLike, *, progress: Progress | None = None) -> Flight:
@@ -115,7 +114,8 @@ def rows(log: Log, name: str, times: Array) -> Array:
 def check_vehicle(log: Log, mission: Mission) -> None:
     """Refuse what cannot be a log of the mission's vehicle, or a mission that cannot be followed."""
     name = mission.mission.name
-    sensed = (*IMU, *JOINTS) if mission.sensors.model != "none" else (RATES,)
+    joints = JOINTS if mission.sensors.joints.model != "none" else ()
+    sensed = (*IMU, *joints) if mission.sensors.model != "none" else (RATES,)
     log.require(*MOTION, *sensed, *(PUSH[:1] if mission.pilot.push == "truth" else []))
     if mission.changes_in_flight:
         raise InputError(f"mission {name} changes in flight: leave out [[changes]] and person.recording")
@@ -143,8 +143,9 @@ def plan_of(log: Log, mission: Mission) -> FlightPlan:
     duration = int(log.end / step + SOON) * step
     calm = {"mission": {"duration": duration}, "pushes": [], "sensor_faults": [], "person": {"model": "none"}}
     with without_flight_warnings():
-        mission = check(merge(tables_of(mission), calm))
-        p, exact = (FlightPlan(m, interactive=PUSH[0] in log) for m in (mission, without_errors(mission)))
+        tables = merge(tables_of(mission), calm)
+        missions = check(tables), check(merge(tables, {"sensors": EXACT}))
+        p, exact = (FlightPlan(m, interactive=PUSH[0] in log) for m in missions)
     numbers = np.array(flat(p.model._replace(sensors=exact.model.sensors)))
     for device, names in (("imu", (*IMU, *JOINTS)), ("motion", MOTION), ("joints", JOINTS)):
         for name in (n for n in names if n in log):
@@ -171,17 +172,3 @@ def flown_commands(log: Log, mission: Mission, times: Array) -> Array | None:
         return None
     constants = [q.thrust_constant for q in mission.vehicle.quadrotors for _ in range(4)]
     return np.array(constants) * log[SPEED_COMMANDS].at(times) ** 2
-
-
-def without_errors(mission: Mission) -> Mission:
-    """A mission whose sensors have no errors."""
-
-    def exact(value: Any) -> Any:
-        if isinstance(value, list):
-            return [exact(part) for part in value]
-        if not isinstance(value, dict):
-            return value
-        return {name: 0.0 if name.endswith(ERRORS) else exact(part) for name, part in value.items()}
-
-    tables = tables_of(mission)
-    return check({**tables, "sensors": exact(tables["sensors"])})

@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from tandemlift.analysis.linearization.frequency_response import frequency_response
 from tandemlift.analysis.linearization.linear_model import LinearModel, Mode, modes_of
 from tandemlift.analysis.linearization.linearize import linearize
-from tandemlift.core.errors import without_flight_warnings
+from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, check, tables_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -98,7 +98,7 @@ def calm_mission(mission: Mission, *, lag: float | None = None, wait: float = 0.
     t["actuators"] |= {"model": "rotors", "delay": 0.0 if lag is None else mission.actuators.delay}
     for q in t["vehicle"]["quadrotors"]:
         q |= {"lag_up": lag or 0.0, "lag_down": lag or 0.0, "max_speed": FASTER * q["max_speed"]}
-    t["sensors"] = _without_errors(t["sensors"])
+    t["sensors"] |= {"errors": "none", "additional": []}
     height = max(mission.phases.height, 0.5) if floor else mission.phases.height
     t["phases"] |= {"lift_start": 1.0, "lift_duration": LIFT, "height": height}
     t["phases"].pop("land_start", None)
@@ -112,25 +112,18 @@ def calm_mission(mission: Mission, *, lag: float | None = None, wait: float = 0.
         return check(t, mission.mission.name), at + wait
 
 
-def _without_errors(sensors: dict[str, Any]) -> dict[str, Any]:
-    """Sensors without noise, bias, drift and misalignment."""
-    wrong = ("noise", "bias", "drift", "misalignment")
-
-    def clean(name: str, value: object) -> object:
-        return 0.0 if name.endswith(wrong) and not isinstance(value, dict) else value
-
-    kept = {
-        k: {n: clean(n, v) for n, v in part.items()} if isinstance(part, dict) else part for k, part in sensors.items()
-    }
-    return {k: v for k, v in kept.items() if k != "additional"}
-
-
 def open_loop(mission: Mission) -> OpenLoop:
     """The loop of a mission cut at the rotors.
 
     Raises:
-        InputError: the controller is plain Python, or the calm flight is lost.
+        InputError: the controller is plain Python, or the calm flight is lost; or an observer knows lag and delay of
+            the rotors, which the calm flight has not.
     """
+    if mission.estimator.wrench != "joints":
+        raise InputError(
+            f'estimator.wrench = "{mission.estimator.wrench}": its loops are not cut at rotors without lag and delay, '
+            "which the observer models; fly the mission with other ones, as in a study"
+        )
     for wait in WAITS:
         calm, at = calm_mission(mission, wait=wait)
         model = linearize(calm, at, inputs=["thrust_offsets"], outputs=["rotor_thrusts"], kink_tolerance=NO_KINK)

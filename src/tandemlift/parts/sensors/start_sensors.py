@@ -56,6 +56,7 @@ from tandemlift.parts.sensors.sensors_table import (
     InertialSensor,
     JointSensors,
     SensorsTable,
+    as_simulated,
     joint_steps,
     noise_scale,
     steps_of,
@@ -124,6 +125,7 @@ def sensors_from(
     """
     if s.model == "none":
         return Absent(), Absent()
+    s = as_simulated(s)
     turns = chance.standard_normal((count, 3)) * s.joints.misalignment
     imu_period, joint_period = steps_of(s.interval, step), joint_steps(s, step)
     scale, of_joints = noise_scale(s, step * imu_period), noise_scale(s, step * (joint_period or imu_period))
