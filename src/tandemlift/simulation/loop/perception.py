@@ -199,8 +199,7 @@ def _estimated(
     dt: Number,
 ) -> tuple[Estimates, EstimatorState]:
     dt = time_between(estimators.sampling, dt)
-    free = untouched(estimators.push, surroundings.aloft, memory.contact)
-    inputs = PushInputs(readings, commands, free, t, dt)
+    inputs = PushInputs(readings, commands, untouched(estimators.push, surroundings.aloft, memory.contact), t, dt)
     push, pushed, state, moved = push_and_state(estimators.push, memory.push, estimators.state, memory.state, inputs)
     used = by_joints(estimators.push)
     imu = about_center(used.off_center, readings.imu, pushed.angular)
@@ -251,9 +250,7 @@ def aloft(guidance: AdmittanceState | HandGuidanceState) -> Number:
     """1 in flight, except in lift and landing, else 0; 1 where guidance is scheduled."""
 
 
-@aloft.register(HandGuidanceState)
-def _aloft(guidance: HandGuidanceState) -> Number:
-    return in_the_air(guidance.phase)
+aloft.register(HandGuidanceState)(lambda guidance: in_the_air(guidance.phase))
 
 
 @law(absent="known")
@@ -274,8 +271,7 @@ def _surroundings(
     near: NearWalls | Absent,
     guidance: AdmittanceState | HandGuidanceState,
 ) -> KnownSurroundings:
-    known = known_surroundings(estimators.contact, sources, near, guidance)
-    return with_flight_phase(estimators.push, known, guidance)
+    return with_flight_phase(estimators.push, known_surroundings(estimators.contact, sources, near, guidance), guidance)
 
 
 @choice(absent="readings")
