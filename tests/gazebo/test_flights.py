@@ -7,6 +7,7 @@ import sys
 import numpy as np
 import pytest
 from patience import ended, said, until
+from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
 from tandemlift.engines import gazebo
@@ -17,6 +18,17 @@ pytestmark = pytest.mark.gazebo
 DT = 1e-3
 HALF_MINUTE = {"mission.duration": 30.0, "mission.log_interval": DT}
 OFF_CENTRE = {"pushes": [{"force": [1.0, 0.5, 0.0], "time": 4.0, "sigma": 0.5, "point": [0.0, 0.8, 0.0]}]}
+EXACT = {
+    **{"mission.duration": 9.0, "mission.log_interval": DT},
+    **{"phases.lift_start": 0.5, "phases.lift_duration": 2.0, "phases.land_start": None},
+    **{"estimator.tare_start": 3.0, "estimator.tare_duration": 1.0},
+    **{"vehicle.drag.force": [0.0, 0.0, 0.0], "vehicle.drag.moment": [0.0, 0.0, 0.0]},
+    **{"sensors.errors": "none", "sensors.joints.force_resolution": 0.0, "sensors.joints.torque_resolution": 0.0},
+    "pushes": [
+        {"force": [3.0, 0.0, 0.0], "time": 5.5, "sigma": 0.3},
+        {"force": [1.0, 2.0, 1.5], "time": 7.5, "sigma": 0.3, "point": [0.0, 0.8, 0.0]},
+    ],
+}
 
 
 def both(name, changes):
@@ -67,6 +79,28 @@ def test_an_observer_finds_the_push_on_the_body_of_gazebo(wrench):
     errors = [np.sqrt(np.mean((f["push_estimate"] - f["push_force"])[pushed] ** 2, axis=0)) for f in (a, b)]
     assert errors[1].max() < 0.06  # N
     assert np.abs(errors[0] - errors[1]).max() < 0.003  # N
+
+
+def test_the_push_is_the_wrench_on_the_beam_that_gazebos_own_joints_and_motion_leave():
+    """Newton and Euler of the beam: ODE's wrenches of its fixed joints, and the motion, know nothing of the push."""
+    flight = tl.fly(tl.load_mission("iris", EXACT | {"estimator.wrench": "kalman"}), engine="gazebo")
+    beam, R = flight.vehicle.payload, Rotation.from_quat(flight["attitude"], scalar_first=True)
+    a, w = flight["measured_specific_force"], flight["measured_rates"]
+    felt, turned = (flight[f"measured_joint_{kind}"].reshape(len(a), -1, 3) for kind in ("force", "torque"))
+    at = np.array([np.subtract(q.joint_position, beam.center_of_mass) for q in flight.vehicle.quadrotors])
+    force = beam.mass * a - felt.sum(axis=1)
+    angular = np.diff(w, axis=0, append=w[-1:]) / DT
+    turning = angular @ beam.tensor + np.cross(w, w @ beam.tensor)
+    moment = turning - (turned + np.cross(at, felt)).sum(axis=1)
+    moment += np.cross(flight.vehicle.payload_center, force)
+    left = {"push_force": R.apply(force), "push_moment": moment}
+    hovers = slice(4200, -2)
+    for name, size in (("push_force", 2.9), ("push_moment", 1.2)):
+        applied = 0.5 * (flight[name][1:] + flight[name][:-1])  # over the step before
+        assert np.abs(applied).max() > size
+        assert np.abs(left[name][1:] - applied)[hovers].max() < 1e-3  # N, N m
+    errors = (flight["push_estimate"] - left["push_force"])[hovers]
+    assert np.sqrt(np.mean(errors**2, axis=0)).max() < 0.08  # N
 
 
 def test_a_landing_ends_at_the_same_height():

@@ -91,7 +91,7 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     ),
     "wind on the payload": (
         wind_compensation.wind_on_payload,
-        (wind_compensation.PayloadDrag(0.0, 0.0, LOW), BLOWN, TWO, TWO, 1.0, 0.0, 0.0),
+        (wind_compensation.PayloadDrag(0.0, 0.0, V, LOW), BLOWN, TWO, TWO, 1.0, 0.0, 0.0, 1.0),
     ),
     "a wrench with lead": (
         rotor_lead.lead_step,

@@ -159,3 +159,10 @@ def test_a_controller_in_plain_python_has_the_reason_that_there_is_no_linear_mod
     told = linear_tier(load_mission("hover", controller=load_controller(path)))
     assert told.claims == ()
     assert "there is no linear model" in told.reason
+
+
+@pytest.mark.parametrize("wrench", ["momentum", "kalman"])
+def test_the_push_by_an_observer_of_the_rotors_has_no_margins_but_the_reason(wrench):
+    told = linear_tier(load_mission("iris", {"estimator.wrench": wrench, "sensors.joints.model": "none"}))
+    assert told.claims == ()
+    assert f'there is no linear model: estimator.wrench = "{wrench}": its loops are not cut' in told.reason

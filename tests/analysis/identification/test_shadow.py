@@ -21,6 +21,16 @@ SLOW = {
     "sensors.motion.delay": 0.007,
     "sensors.motion.first_sample": 0.003,
 }
+SOON_PUSHED = {
+    "mission.duration": 6.0,
+    "phases.lift_start": 0.5,
+    "phases.lift_duration": 2.0,
+    "phases.land_start": None,
+    "estimator.tare_start": 3.0,
+    "estimator.tare_duration": 1.0,
+    "pushes": [{"force": [3.0, 0.0, 0.0], "time": 5.0, "sigma": 0.3}],
+}
+JOINTS_OF = {"fused": "simulated"}
 
 
 def iris(**changes):
@@ -76,6 +86,16 @@ def test_it_does_so_whatever_engine_flew_and_where_a_rotor_fails(name, engine, d
     mission = tl.load_mission(name, {"mission.duration": duration, "mission.log_interval": 0.001})
     flight = tl.fly(mission, engine)
     same_bits(flight, tl.shadow(log_of(flight), mission), OF_THE_PILOT[:-1])
+
+
+@pytest.mark.parametrize("wrench", ["momentum", "kalman", "unscented", "fused"])
+def test_an_observer_finds_in_the_log_what_it_found_in_flight(wrench):
+    """It weighs the samples by the noise that the mission tells of, not by that of the shadow's exact sensors."""
+    mission = iris(**SOON_PUSHED, **{"estimator.wrench": wrench, "sensors.joints.model": JOINTS_OF.get(wrench, "none")})
+    flight = tl.fly(mission)
+    shadow = tl.shadow(log_of(flight), mission)
+    same_bits(flight, shadow, OF_THE_PILOT[:-2])
+    assert np.abs(shadow["push_estimate"]).max() > 2.0
 
 
 def test_without_commands_the_pilot_takes_its_own_for_flown(flown, log):

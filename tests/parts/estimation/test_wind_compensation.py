@@ -90,14 +90,23 @@ def test_noise_of_the_joints_comes_through_times_the_ratio_of_drags_as_told():
     assert 2.0 * k.ratio_x == pytest.approx(11.0)
     memory, found, pair = start_payload_drag(k), np.zeros(n), each(2)
     for i, (a, b) in enumerate(rng.standard_normal((n, 2)) * sigma):
-        force, memory = wind_on_payload(k, memory, pair(float(a), float(b)), pair(0.0, 0.0), 1.0, 0.0, 1.0)
+        force, memory = wind_on_payload(k, memory, pair(float(a), float(b)), pair(0.0, 0.0), 1.0, 0.0, 1.0, 1.0)
         found[i] = force.x
     assert found[1000:].std() == pytest.approx(11.0 * sigma * np.sqrt(12.0 * STEP / 8.0), rel=0.1)
 
 
 def test_without_a_tare_and_without_compensation_nothing_is_taken_off():
     assert array(tare_mean(start_payload_drag(payload_drag_from(VEHICLE, 12.0, STEP)))) == pytest.approx(np.zeros(3))
-    assert wind_on_payload(Absent(), Absent(), each(2)(1.0, 1.0), each(2)(1.0, 1.0), 1.0, 0.0, 1.0) == (
+    assert wind_on_payload(Absent(), Absent(), each(2)(1.0, 1.0), each(2)(1.0, 1.0), 1.0, 0.0, 1.0, 1.0) == (
         ZERO,
         Absent(),
     )
+
+
+def test_a_blow_on_a_guard_takes_off_no_more_than_a_wind_of_8_m_s_and_in_a_contact_nothing():
+    R, none = Rotation.identity(), np.zeros(3)
+    k, calm, blown = estimator(), read(R, none, none), read(R, np.array([30.0, 0.0, 0.0]), none)
+    push, memory = settled(k, start_push(k, calm), blown, 0.0)
+    assert array(push.measured) == pytest.approx([BEAM[0] * (30.0**2 - 8.0**2), 0.0, 0.0], abs=1e-7)
+    push, _ = estimate(k, memory, blown, 0.2, 0.0)
+    assert array(push.measured) == pytest.approx([BEAM[0] * 30.0**2, 0.0, 0.0], abs=1e-7)

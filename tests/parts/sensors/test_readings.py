@@ -13,6 +13,7 @@ from scipy import stats
 from scipy.spatial.transform import Rotation
 
 from tandemlift.core.vector import ZERO, Quat, Vec3, each, spread, vec3
+from tandemlift.missions import load_mission
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.noise_bias_drift import SensorGrade
@@ -25,6 +26,7 @@ from tandemlift.parts.sensors.readings import (
     start_sensing,
     zero_noise,
 )
+from tandemlift.parts.sensors.start_sensors import sensors_from
 
 STEP = 1e-3
 SETS = Vec3(*[each(2)(0.0, 0.0)] * 3)
@@ -161,3 +163,15 @@ def test_attitude_noise_turns_about_the_bodys_axes():
     readings, _ = sense(k, start_sensing(k, s, FELT, lying), s, FELT, lying, normals)
     found, true = (Rotation.from_quat(array(q), scalar_first=True) for q in (readings.motion.attitude, lying))
     assert (true.inv() * found).as_rotvec() == pytest.approx([0.0, 0.0, 0.3], abs=1e-14)
+
+
+def test_sensors_without_errors_read_the_truth_whatever_their_table_says():
+    table = load_mission("iris", {"sensors.errors": "none", "sensors.joints.force_resolution": 0.0}).sensors
+    k, _ = sensors_from(table, 2, STEP, np.random.default_rng(1))
+    memory = start_sensing(k, AT_REST, FELT, AT_REST.attitude)
+    _, memory = sense(k, memory, AT_REST, FELT, AT_REST.attitude, hiss(np.random.default_rng(2)))
+    read, _ = sense(k, memory, AT_REST, FELT, AT_REST.attitude, hiss(np.random.default_rng(3)))
+    assert table.joints.force_noise > 0.0
+    assert np.array_equal(flat(read.imu)[:6], [*FELT.specific_force, *AT_REST.rates])
+    assert np.array_equal(array(read.imu.joint_force), array(FELT.joint_force))
+    assert np.array_equal(array(read.motion.position), array(AT_REST.position))

@@ -15,11 +15,11 @@ import numpy as np
 
 from tandemlift.analysis.certification.parameters import ARM, parameter, with_keys
 from tandemlift.analysis.linearization.claims import Claim, FlownLimit, Tier
-from tandemlift.analysis.linearization.loop_margins import calm_mission, rotor_delay_and_lag, without_errors
+from tandemlift.analysis.linearization.loop_margins import UNROUNDED, calm_mission, rotor_delay_and_lag
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array
-from tandemlift.missions import Mission, check, format_toml, tables_of
+from tandemlift.missions import Mission, check, format_toml, merge, tables_of
 from tandemlift.simulation.fly import Flight, fly_many
 
 LEAST, MOST, COARSE, FINE = 0.5, 1.6, 16, 12  # factors of the predicted limit; flights that look for the limit
@@ -114,8 +114,7 @@ def hover_as_flown(mission: Mission) -> tuple[Mission, float]:
         t["actuators"] = own["actuators"]
     for q, original in zip(t["vehicle"]["quadrotors"], own["vehicle"]["quadrotors"], strict=True):
         q |= {"max_speed": original["max_speed"], "lag_up": lag, "lag_down": lag}
-    t["sensors"] = without_errors(t["sensors"], ("resolution",))
-    return check(t, mission.mission.name, quiet=True), at
+    return check(merge(t, {"sensors": UNROUNDED}), mission.mission.name, quiet=True), at
 
 
 def kicked(mission: Mission, changes: Mapping[str, Any]) -> Mission:

@@ -17,7 +17,7 @@ from dataclasses import replace
 import numpy as np
 
 from tandemlift.analysis.identification.windows import check_columns
-from tandemlift.analysis.linearization.loop_margins import ERRORS, without_errors
+from tandemlift.analysis.linearization.loop_margins import UNROUNDED
 from tandemlift.analysis.logs.checks import check_log
 from tandemlift.analysis.logs.log import COMMANDS, FLOWN_COMMANDS, IMU, JOINTS, MOTION, PUSH, SOON, SPEED_COMMANDS, Log
 from tandemlift.core.errors import FlightWarning, InputError
@@ -32,6 +32,7 @@ ENGINE = "log"
 RATES = IMU[1]
 ELSEWHERE = 0.5  # m: a log that begins farther from the mission's start is of another flight
 SPARSE = 0.8  # of the mission's rate: with fewer samples the estimators take one sample for several
+EXACT = {"errors": "none", **UNROUNDED}
 HOLDERS = ((("readings",), ()), (("sensing",), ("reading",)))  # of the last readings, in a flight's state
 
 
@@ -115,7 +116,8 @@ def rows(log: Log, name: str, times: Array) -> Array:
 def check_vehicle(log: Log, mission: Mission) -> None:
     """Refuse what cannot be a log of the mission's vehicle, or a mission that cannot be followed."""
     name = mission.mission.name
-    sensed = (*IMU, *JOINTS) if mission.sensors.model != "none" else (RATES,)
+    joints = JOINTS if mission.sensors.joints.model != "none" else ()
+    sensed = (*IMU, *joints) if mission.sensors.model != "none" else (RATES,)
     log.require(*MOTION, *sensed, *(PUSH[:1] if mission.pilot.push == "truth" else []))
     if mission.changes_in_flight:
         raise InputError(f"mission {name} changes in flight: leave out [[changes]] and person.recording")
@@ -143,8 +145,8 @@ def plan_of(log: Log, mission: Mission) -> FlightPlan:
     duration = int(log.end / step + SOON) * step
     calm = {"mission": {"duration": duration}, "pushes": [], "sensor_faults": [], "person": {"model": "none"}}
     tables = merge(tables_of(mission), calm)
-    exact_tables = {**tables, "sensors": without_errors(tables["sensors"], (*ERRORS, "resolution"))}
-    p, exact = (FlightPlan(check(t, quiet=True), interactive=PUSH[0] in log) for t in (tables, exact_tables))
+    missions = check(tables, quiet=True), check(merge(tables, {"sensors": EXACT}), quiet=True)
+    p, exact = (FlightPlan(m, interactive=PUSH[0] in log) for m in missions)
     numbers = np.array(flat(p.model._replace(sensors=exact.model.sensors)))
     for device, names in (("imu", (*IMU, *JOINTS)), ("motion", MOTION), ("joints", JOINTS)):
         for name in (n for n in names if n in log):

@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from tandemlift.analysis.linearization.frequency_response import frequency_response
 from tandemlift.analysis.linearization.linear_model import LinearModel, Mode, modes_of
 from tandemlift.analysis.linearization.linearize import linearize
+from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, check, tables_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -41,7 +42,7 @@ FASTER = 10.0  # times the largest speed of the rotors, so that no thrust is lim
 RESTING = 0.02  # m/s and rad/s, of a calm hover
 FIRST, MOST = 1e-4, 100.0  # s, the shortest and the longest delay and lag that are tried
 RELATIVE = 1e-4  # accuracy of the results
-ERRORS = ("noise", "bias", "drift", "misalignment")  # ends of the names of sensors' keys
+UNROUNDED = {"joints": {"force_resolution": 0.0, "torque_resolution": 0.0}}  # changes of a table of sensors
 SLOWEST = 5  # modes that are checked
 FINER = 10  # frequencies for each at which a response is computed
 
@@ -100,7 +101,7 @@ def calm_mission(mission: Mission, *, lag: float | None = None, wait: float = 0.
     t["actuators"] |= {"model": "rotors", "delay": 0.0 if lag is None else mission.actuators.delay}
     for q in t["vehicle"]["quadrotors"]:
         q |= {"lag_up": lag or 0.0, "lag_down": lag or 0.0, "max_speed": FASTER * q["max_speed"]}
-    t["sensors"] = without_errors(t["sensors"]) | {"additional": []}
+    t["sensors"] |= {"errors": "none", "additional": []}
     height = max(mission.phases.height, 0.5) if floor else mission.phases.height
     t["phases"] |= {"lift_start": 1.0, "lift_duration": LIFT, "height": height}
     t["phases"].pop("land_start", None)
@@ -113,21 +114,18 @@ def calm_mission(mission: Mission, *, lag: float | None = None, wait: float = 0.
     return check(t, mission.mission.name, quiet=True), at + wait
 
 
-def without_errors(sensors: Any, errors: tuple[str, ...] = ERRORS) -> Any:
-    """Tables of sensors in which the keys that end with the name of an error are 0."""
-    if isinstance(sensors, list):
-        return [without_errors(part, errors) for part in sensors]
-    if not isinstance(sensors, dict):
-        return sensors
-    return {name: 0.0 if name.endswith(errors) else without_errors(part, errors) for name, part in sensors.items()}
-
-
 def open_loop(mission: Mission) -> OpenLoop:
     """The loop of a mission cut at the rotors.
 
     Raises:
-        InputError: the controller is plain Python, or the calm flight is lost.
+        InputError: the controller is plain Python, or the calm flight is lost; or an observer knows lag and delay of
+            the rotors, which the calm flight has not.
     """
+    if mission.estimator.wrench != "joints":
+        raise InputError(
+            f'estimator.wrench = "{mission.estimator.wrench}": its loops are not cut at rotors without lag and delay, '
+            "which the observer models; fly the mission with other ones, as in a study"
+        )
     for wait in WAITS:
         calm, at = calm_mission(mission, wait=wait)
         model = linearize(calm, at, inputs=["thrust_offsets"], outputs=["rotor_thrusts"], kink_tolerance=NO_KINK)

@@ -74,7 +74,7 @@ def averaged_lags(p: FlightPlan) -> list[tuple[float, float]]:
     if m.actuators.model != "rotors" or all(up == down for up, down in lags):
         return []
     s, wind, person = m.sensors, m.wind, m.person
-    read = s.model == "simulated" and (m.pilot.state, m.pilot.push) != ("truth", "truth")
+    read = s.model == s.errors == "simulated" and (m.pilot.state, m.pilot.push) != ("truth", "truth")
     parts = (s.joints, s.accelerometer, s.gyroscope, s.motion)
     noisy = read and any(value for part in parts for name, value in part if name.endswith("noise"))
     trembles = person.model not in ("none", "virtual-hand") and person.tremor > 0.0

@@ -13,6 +13,7 @@ from tandemlift.core.algebra import maximum
 from tandemlift.core.law import law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Absent, Vec3, apply, apply_transposed, cross, vec3
+from tandemlift.parts.estimation.contact_detection import ContactState, shaken
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.estimation.navigation import NavigationState, Navigator, navigate
 from tandemlift.parts.estimation.push_estimate import (
@@ -30,6 +31,7 @@ from tandemlift.parts.estimation.wrench.fused import (
     fused_filter,
     refuted_force,
 )
+from tandemlift.parts.estimation.wrench.wind_compensation import PayloadDrag
 from tandemlift.parts.estimation.wrench_push import (
     PushAndState,
     PushInputs,
@@ -100,6 +102,15 @@ def _by_both(
 def by_joints(push: FusedPush) -> PushEstimator:
     """The estimator by joints, of a fused one too; an observer stays as it is."""
     return push.joints
+
+
+@law(absent="aloft", instead={WrenchPush: "aloft", FusedPush: "aloft"})
+def untouched(wind: PayloadDrag, aloft: Number, contact: ContactState | Absent) -> Number:
+    """`aloft`, but 0 in a `contact` (its memory) where wind is subtracted from the push: a wall would be wind."""
+    return aloft * (1.0 - shaken(contact))
+
+
+untouched.register(PushEstimator)(lambda push, aloft, contact: untouched(push.windage, aloft, contact))
 
 
 def start_push_estimator(

@@ -152,9 +152,9 @@ def disagreement(k: PushEstimator, x: PerQuadrotor, y: PerQuadrotor) -> Number:
 
 @law
 def estimate(
-    k: PushEstimator, memory: PushEstimatorState, imu: ImuReading, t: Number
+    k: PushEstimator, memory: PushEstimatorState, imu: ImuReading, t: Number, free: Number = 1.0
 ) -> tuple[PushEstimate, PushEstimatorState]:
-    """(Push, the new memory) from a reading of the IMU at time t [s]."""
+    """(Push, the new memory) from a reading of the IMU at time t [s]; `free`: see `wind_on_payload`."""
     angular = where(imu.fresh > 0.0, (imu.rates - memory.rates) * k.per_interval, memory.angular)
     # the accelerometer is at the origin, and the equations are about the centre of mass
     imu = about_center(k.off_center, imu, angular)
@@ -166,7 +166,7 @@ def estimate(
     sums = summed(memory.sums, begun, taken, f, a, moment, unequal)
     armed = where(t < k.tare_end, 0.0, 1.0)
     tare = tare_of(k.mass, k.identify, sums, armed)
-    wind, wind_memory = wind_on_payload(k.windage, memory.wind, outside.x, outside.y, begun, taken, armed)
+    wind, wind_memory = wind_on_payload(k.windage, memory.wind, outside.x, outside.y, begun, taken, armed, free)
     force = inertial_force(k, a, imu.rates, angular, tare.mass) - f - tare.force - wind
     after = PushEstimatorState(
         imu.rates,

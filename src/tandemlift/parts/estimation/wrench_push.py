@@ -95,7 +95,10 @@ class WrenchPushState(NamedTuple):
 
 
 class PushInputs(NamedTuple):
-    """Readings, the last thrusts of the rotors [N], 1 while no floor carries the vehicle, the clock of the tare, dt."""
+    """Readings, the last thrusts of the rotors [N], 1 while no floor carries the vehicle, the clock of the tare, dt.
+
+    `airborne` is also 0 in a contact where wind is subtracted from the push (`wind_compensation`).
+    """
 
     readings: Readings
     commands: PerRotor | Absent
@@ -124,7 +127,7 @@ def push_and_state(
 def _by_joints(
     k: PushEstimator, memory: PushEstimatorState, navigator: Navigator, navigation: NavigationState, x: PushInputs
 ) -> PushAndState:
-    push, after = estimate(k, memory, x.readings.imu, x.t)
+    push, after = estimate(k, memory, x.readings.imu, x.t, x.airborne)
     return PushAndState(push, after, *navigate(navigator, navigation, x.readings))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import AfterValidator, Field
 
@@ -169,6 +169,15 @@ class SensorsTable(Table):
         "whole steps",
         rule=STEPS,
     )
+    errors: Literal["simulated", "none"] = key(
+        "simulated",
+        None,
+        "errors of the sensors: noise, bias, drift and misalignment",
+        choices={
+            "simulated": "those of this table",
+            "none": "none; observers still weigh the samples by the noise of this table",
+        },
+    )
     joints: JointSensors = JointSensors()
     accelerometer: Accelerometer = Accelerometer()
     gyroscope: Gyroscope = Gyroscope()
@@ -222,6 +231,22 @@ class SensorFaultTable(Table):
         THE_SENSORS,
         "offset, or the reading in its place; a force for joints, a rotation about body axes [rad] for the attitude",
     )
+
+
+ERRORS = ("noise", "bias", "drift", "misalignment")  # keys, at the end of their names
+
+
+def as_simulated(s: SensorsTable) -> SensorsTable:
+    """The table with the errors that its sensors have in flight."""
+    return s if s.errors == "simulated" else _exact(s)
+
+
+def _exact(value: Any) -> Any:
+    if isinstance(value, tuple):
+        return tuple(map(_exact, value))
+    if not isinstance(value, Table):
+        return value
+    return value.model_copy(update={name: 0.0 if name.endswith(ERRORS) else _exact(part) for name, part in value})
 
 
 def steps_of(interval: float, step: float) -> int:

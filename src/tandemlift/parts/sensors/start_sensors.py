@@ -36,6 +36,7 @@ from tandemlift.parts.sensors.sensors_table import (
     AdditionalSensorTable,
     InertialSensor,
     SensorsTable,
+    as_simulated,
     joint_steps,
     noise_scale,
     steps_of,
@@ -51,6 +52,7 @@ def sensors_from(
     """
     if s.model == "none":
         return Absent(), Absent()
+    s = as_simulated(s)
     # the order of the draws decides which error a seed gives to which sensor
     turns = chance.standard_normal((count, 3)) * s.joints.misalignment
     imu_period, joint_period = steps_of(s.interval, step), joint_steps(s, step)

@@ -40,7 +40,7 @@ from tandemlift.parts.sensors.health import (
     not_finite,
 )
 from tandemlift.parts.sensors.readings import ImuReading, MotionReading, Readings
-from tandemlift.parts.sensors.sensors_table import SensorsTable, joint_steps, steps_of
+from tandemlift.parts.sensors.sensors_table import SensorsTable, as_simulated, joint_steps, steps_of
 from tandemlift.parts.sensors.substitutes import (
     SETTLING_TIME,
     MeanBiases,
@@ -271,6 +271,7 @@ def state_not_finite(s: State) -> Number:
 
 def watchdog_from(w: WatchTable, s: SensorsTable, step: float) -> Watchdog:
     """The watchdogs on every sensor, for steps of `step` [s]; a sensor without noise is never frozen."""
+    s = as_simulated(s)
 
     def frozen(noise: Number, held: int = 1) -> Number:
         return where(noise > 0.0, float(w.frozen_samples * held), math.inf)

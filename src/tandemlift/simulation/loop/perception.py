@@ -19,7 +19,7 @@ from tandemlift.parts.estimation.contact_detection import (
     shaken,
 )
 from tandemlift.parts.estimation.contact_evidence import ContactDetector, PushReading
-from tandemlift.parts.estimation.fused_push import FusedPush, FusedPushState, by_joints
+from tandemlift.parts.estimation.fused_push import FusedPush, FusedPushState, by_joints, untouched
 from tandemlift.parts.estimation.navigation import NavigationState, Navigator
 from tandemlift.parts.estimation.push_confirmation import (
     ConfirmationState,
@@ -29,6 +29,7 @@ from tandemlift.parts.estimation.push_confirmation import (
     refuted_push,
 )
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, PushEstimatorState
+from tandemlift.parts.estimation.wrench.wind_compensation import PayloadDrag
 from tandemlift.parts.estimation.wrench_push import PushInputs, WrenchPush, WrenchPushState, push_and_state
 from tandemlift.parts.guidance.contact_hold import contact_of
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceState
@@ -190,7 +191,7 @@ def _estimated(
     dt: Number,
 ) -> tuple[Estimates, EstimatorState]:
     dt = time_between(estimators.sampling, dt)
-    inputs = PushInputs(readings, commands, surroundings.aloft, t, dt)
+    inputs = PushInputs(readings, commands, untouched(estimators.push, surroundings.aloft, memory.contact), t, dt)
     push, pushed, state, moved = push_and_state(estimators.push, memory.push, estimators.state, memory.state, inputs)
     used = by_joints(estimators.push)
     imu = about_center(used.off_center, readings.imu, pushed.angular)
@@ -242,13 +243,15 @@ def aloft(guidance: HandGuidanceState) -> Number:
     return in_the_air(guidance.phase)
 
 
-@law(instead={PushEstimator: "known"})
+@law(absent="known")
 def with_flight_phase(push: WrenchPush, known: KnownSurroundings, guidance: object) -> KnownSurroundings:
-    """The same, with the phase of the flight where an observer needs it, for which a floor is a push."""
+    """The same, with the phase of the flight where a floor would be a push, to an observer, or wind."""
     return known._replace(aloft=aloft(guidance))
 
 
 with_flight_phase.register(FusedPush)(lambda push, known, guidance: known._replace(aloft=aloft(guidance)))
+with_flight_phase.register(PayloadDrag)(lambda wind, known, guidance: known._replace(aloft=aloft(guidance)))
+with_flight_phase.register(PushEstimator)(lambda push, known, at: with_flight_phase(push.windage, known, at))
 
 
 @surroundings_of.register(Estimators)
@@ -258,8 +261,7 @@ def _surroundings(
     near: NearWalls | Absent,
     guidance: AdmittanceState | HandGuidanceState,
 ) -> KnownSurroundings:
-    known = known_surroundings(estimators.contact, sources, near, guidance)
-    return with_flight_phase(estimators.push, known, guidance)
+    return with_flight_phase(estimators.push, known_surroundings(estimators.contact, sources, near, guidance), guidance)
 
 
 @law(absent="readings")

@@ -6,7 +6,11 @@ payload and quadrotors, as long as the vehicle rotates slowly. So along x and y 
 quadrotors times the ratio of their C A, whatever the wind. Along z nothing is known.
 
 The ratio also multiplies the sensors' errors. For noise σ per sample, taken every T, in the mean of N joints, a
-low-pass of bandwidth ω leaves ratio · σ √(ω T/4N); it delays gusts by 2/ω.
+low-pass of bandwidth ω leaves ratio · σ √(ω T/4N); it delays gusts by 2/ω. A drift of d in √s becomes ratio · d √(t/N):
+on `iris`, 11 · 0.005 √(50/2) = 0.3 N along x after 50 s.
+
+A floor's friction and a wall would be taken for wind as well, and the push for its opposite, which the pilot then
+follows. So nothing is subtracted in lift, landing and contact, and never more than the drag of `FASTEST`.
 """
 
 from collections.abc import Iterator, Sequence
@@ -14,22 +18,25 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.core.algebra import maximum
+from tandemlift.core.algebra import chosen, clip, maximum
 from tandemlift.core.arrays import array
 from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.law import law
 from tandemlift.core.types import Number, PerQuadrotor, number
-from tandemlift.core.vector import ZERO, Absent, Vec3, total
+from tandemlift.core.vector import ZERO, Absent, Vec3, total, vec3
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import Quadrotor
 
+FASTEST, DENSITY = 8.0, 1.225  # m/s, of a wind beyond that of the tare; kg/m³
+
 
 class PayloadDrag(NamedTuple):
-    """Drag of the payload over that of all quadrotors together, along body x and y; and the low-pass."""
+    """Drag of the payload over that of all quadrotors together, along body x and y; its largest [N]; the low-pass."""
 
     ratio_x: Number
     ratio_y: Number
+    largest: Vec3
     low_pass: LowPass
 
 
@@ -56,15 +63,17 @@ def wind_on_payload(
     begun: Number,
     taken: Number,
     armed: Number,
+    free: Number,
 ) -> tuple[Vec3, PayloadDragState]:
     """(force of the wind on the payload beyond the tare's [N, body axes], the new memory).
 
     `x`, `y`: forces from outside on every quadrotor [N], body axes; 1 or 0: the tare has `begun`, the sample is `taken`
-    for it, it is over (`armed`).
+    for it, it is over (`armed`), neither floor nor wall may touch (`free`).
     """
     force = Vec3(total(x) * k.ratio_x, total(y) * k.ratio_y, 0.0)
     summed = PayloadDragState(memory.sum * begun + force * taken, memory.count * begun + taken, memory.force)
-    after = low_pass_step(k.low_pass, memory.force, (force - tare_mean(summed)) * armed)
+    beyond = clip(force - tare_mean(summed), -k.largest, k.largest) * armed
+    after = chosen(free, low_pass_step(k.low_pass, memory.force, beyond), LowPassState(ZERO, ZERO))
     return after.value, PayloadDragState(summed.sum, summed.count, after)
 
 
@@ -83,7 +92,9 @@ def payload_drag_from(vehicle: Vehicle, bandwidth: float, step: float) -> Payloa
     """The windage of the nominal vehicle, with a low-pass of a bandwidth [rad/s]."""
     beam = array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
     quadrotors = np.sum([array(q.areas) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)
-    return PayloadDrag(number(beam[0] / quadrotors[0]), number(beam[1] / quadrotors[1]), low_pass(bandwidth, step))
+    x, y, _ = beam / quadrotors
+    largest = vec3(0.5 * DENSITY * FASTEST**2 * beam)
+    return PayloadDrag(number(x), number(y), largest, low_pass(bandwidth, step))
 
 
 def compensation_checks(model: str, quadrotors: Sequence[Quadrotor]) -> Iterator[CheckResult]:
