@@ -120,7 +120,7 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
     """The manifest of a mission that was made interactive."""
     mission = plan.mission
     scene = scene_of(mission, ENGINE)
-    rule = checks.touch_rule(mission.pilot.push, mission.estimator, scene["vehicle"])
+    rule = checks.touch_rule(mission, scene["vehicle"])
     tables = tables_of(mission)
     tables.pop("changes", None)
     parameters = list(parameters_of(tables, tables))

@@ -16,7 +16,7 @@ from tandemlift.core.algebra import Number, sqrt, where
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, PHASE_NAMES
 from tandemlift.core.vector import ZERO, Vec3, dot
-from tandemlift.parts.estimation.estimator_table import EstimatorTable
+from tandemlift.missions import Mission
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 TARE = "estimator.tare_start"
@@ -53,10 +53,10 @@ class TouchRule(NamedTuple):
     tare_end: Number
 
 
-def touch_rule(push: str, estimator: EstimatorTable, vehicle: SceneVehicle) -> TouchRule:
-    """The rule for a vehicle whose pilot receives the push so (`pilot.push`), and whose sensors are tared so."""
-    reach, start = max(_reaches(vehicle)), estimator.tare_start
-    if push == "truth":  # no force sensor is read, so none is tared
+def touch_rule(mission: Mission, vehicle: SceneVehicle) -> TouchRule:
+    """The rule of the mission as it is now."""
+    reach, estimator, start = max(_reaches(vehicle)), mission.estimator, mission.estimator.tare_start
+    if mission.pilot.push == "truth":  # no force sensor is read, so none is tared
         return TouchRule(reach, 0.0, 0.0)
     if estimator.tare == "hover":
         return TouchRule(reach, estimator.tare_duration, 0.0)
@@ -96,7 +96,7 @@ def check_touch(flight: RecordedFlight, vehicle: SceneVehicle, point: Sequence[f
     Raises:
         InputError: it is refused.
     """
-    rule = touch_rule(flight.now.pilot.push, flight.now.estimator, vehicle)
+    rule = touch_rule(flight.now, vehicle)
     refusal = touch_refusal(rule, flight.step * flight.dt, _hover_time(flight, rule), Vec3(*point))
     if refusal != ALLOWED:
         raise InputError(touch_texts(rule)[refusal].format(point=list(point)))
@@ -104,7 +104,7 @@ def check_touch(flight: RecordedFlight, vehicle: SceneVehicle, point: Sequence[f
 
 def tare_left(flight: RecordedFlight, vehicle: SceneVehicle) -> float:
     """The time for which nobody may touch the vehicle, as its force sensors are tared [s]; else 0."""
-    rule = touch_rule(flight.now.pilot.push, flight.now.estimator, vehicle)
+    rule = touch_rule(flight.now, vehicle)
     return max(rule.tare_end - flight.step * flight.dt, rule.tare_duration - _hover_time(flight, rule), 0.0)
 
 
