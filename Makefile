@@ -49,7 +49,8 @@ imports: .venv/dev  ## imports go downward only
 
 tests: .venv/dev ## all tests
 	@# a process for each core, whose threads of linear algebra would only wait, and one more: some tests wait for pages;
-	@# bytecode is kept, whatever the shell says: tests start hundreds of processes; a file stays in a process, which has its fixtures once
+	@# bytecode is kept, whatever the shell says: tests start hundreds of processes;
+	@# a file stays in one process, which makes its fixtures once
 	PYTHONDONTWRITEBYTECODE= OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n $$(( $$(getconf _NPROCESSORS_ONLN) + 1 )) --dist loadfile --no-loadscope-reorder
 
 quick: .venv/dev ## what neither compiles a flight, starts a process nor browses; the first run learns which

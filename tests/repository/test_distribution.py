@@ -17,7 +17,7 @@ EXTRAS = PROJECT["optional-dependencies"]
 WITHOUT_IMPORT = {"casadi", "jax"}  # laws take arrays of these as they are given
 COMES_WITH = {  # an import's package, where it has another name
     **{"lz4": "rosbags", "pydantic_core": "pydantic", "mpl_toolkits": "matplotlib"},
-    **{"PIL": "pillow", "cycler": "matplotlib", "markupsafe": "jinja2"},
+    **{"PIL": "pillow", "cycler": "matplotlib", "markupsafe": "jinja2", "vtkmodules": "pyvista"},
 }
 NOT_IN_ALL = {"torch"}  # 5 GB
 OF_NOTEBOOKS = {"IPython"}  # imported only where it runs

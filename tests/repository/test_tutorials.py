@@ -73,6 +73,7 @@ def test_the_notebook_is_kept_without_outputs():
     assert all(cell["outputs"] == [] and cell["execution_count"] is None for cell in notebook_cells())
 
 
+@pytest.mark.examples
 def test_in_the_notebook_a_flight_shows_itself_and_long_work_has_a_bar(tmp_path):
     nbclient, nbformat = pytest.importorskip("nbclient"), pytest.importorskip("nbformat")
     notebook = nbformat.read(EXAMPLES / "first_flight.ipynb", 4)

@@ -142,10 +142,14 @@ class Vehicle:
         return np.array([q.position for q in self.quadrotors]) - self.center_of_mass
 
     @property
+    def rotor_hubs(self) -> list[list[tuple[float, float, float]]]:
+        """The hubs of every quadrotor's rotors from its centre of mass [m], body axes (N × 4 × 3)."""
+        return [[(x, y, q.rotor_height) for x, y in q.rotors] for q in self.quadrotors]
+
+    @property
     def hubs(self) -> Array:
         """The hubs of all rotors from the system's centre of mass [m], body axes (4 N × 3)."""
-        hubs = array([[(x, y, q.rotor_height) for x, y in q.rotors] for q in self.quadrotors])
-        return (self.lever_arms[:, None] + hubs).reshape(-1, 3)
+        return (self.lever_arms[:, None] + array(self.rotor_hubs)).reshape(-1, 3)
 
     @property
     def soles(self) -> Array:

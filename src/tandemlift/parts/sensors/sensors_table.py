@@ -175,7 +175,7 @@ class SensorsTable(Table):
         "errors of the sensors: noise, bias, drift and misalignment",
         choices={
             "simulated": "those of this table",
-            "none": "none; observers still weigh the samples by the noise of this table",
+            "none": "exact samples, which observers still weigh by the noise of this table",
         },
     )
     joints: JointSensors = JointSensors()
