@@ -17,7 +17,9 @@ import patient_server
 import pytest
 from patience import PATIENCE, ended, joined, said, until
 from PIL import Image
-from sessions import GUIDED, THRESHOLD, read_frames
+from sessions import GUIDED, THRESHOLD
+
+from tandemlift.apps.live.session.frames import read_frames
 
 CHROMIUM = Path("/usr/bin/chromium")
 if not os.environ.get("TANDEMLIFT_REQUIRE_ALL"):

@@ -15,10 +15,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from sessions import read_frames
 
 from tandemlift.apps.live.page_files import PAGE_FOLDER
 from tandemlift.apps.live.page_modules import FORMAT, PackedFlight
+from tandemlift.apps.live.session.frames import read_frames
 from tandemlift.core.files import __version__
 from tandemlift.missions import load_mission
 from tandemlift.simulation.plan import FlightPlan

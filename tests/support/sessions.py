@@ -1,8 +1,7 @@
 """Sessions that tests advance, instead of the clock."""
 
-import numpy as np
-
 import tandemlift as tl
+from tandemlift.apps.live.session.frames import read_frames
 from tandemlift.apps.live.session.page_messages import PAGE_MESSAGES
 from tandemlift.apps.live.session.session import Session
 
@@ -30,13 +29,6 @@ def fly(session, seconds):
             return
         session._hand.expire_requests()
         session.flight.advance()
-
-
-def read_frames(layout, data):
-    """The values (count, columns) of each field in frames that follow one another."""
-    table = np.frombuffer(data, dtype="<f4").reshape(-1, sum(count for _, count in layout))
-    places = np.cumsum([count for _, count in layout])[:-1]
-    return dict(zip([name for name, _ in layout], np.split(table, places, axis=1), strict=True))
 
 
 def seen(session):

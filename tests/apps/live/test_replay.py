@@ -19,7 +19,6 @@ from html_page import Page
 from live_page import PAGE, Running, put_page
 from patience import PATIENCE, said
 from scipy.spatial.transform import Rotation
-from sessions import read_frames
 
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli
@@ -27,7 +26,7 @@ from tandemlift.apps.live import page_files as pages
 from tandemlift.apps.live.page_files import page_files
 from tandemlift.apps.live.replay import replay_files, replay_html, scene_and_frames
 from tandemlift.apps.live.server import PageServer
-from tandemlift.apps.live.session.frames import layout_for
+from tandemlift.apps.live.session.frames import layout_for, read_frames
 from tandemlift.apps.live.session.scene_builder import scene_of
 from tandemlift.engines.models.visuals import FRONT, REAR
 

@@ -7,12 +7,12 @@ import threading
 
 from live_page import Running, put_page
 from patience import PATIENCE, until
-from sessions import read_frames
 from standin import StandIn
 from websockets.exceptions import ConnectionClosed
 
 from tandemlift.apps.live.page_files import page_files
 from tandemlift.apps.live.server import PageServer
+from tandemlift.apps.live.session.frames import read_frames
 
 MASS = {"type": "set", "key": "admittance.mass", "value": [2.0]}
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 from patience import PATIENCE, until
-from sessions import read_frames
 
 from tandemlift.apps.live import viewers
+from tandemlift.apps.live.session.frames import read_frames
 
 
 def at_target(viewer, server, target):

@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 import slow_compiler
 from patience import PATIENCE, ended, said, until
-from sessions import read_frames
 from websockets.sync.client import connect
+
+from tandemlift.apps.live.session.frames import read_frames
 
 
 @pytest.fixture

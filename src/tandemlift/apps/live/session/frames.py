@@ -93,6 +93,14 @@ def pack_frames(layout: FrameLayout, values: Mapping[str, ArrayLike], count: int
     return table
 
 
+def read_frames(layout: FrameLayout, data: bytes) -> dict[str, NDArray[Any]]:
+    """The values (count, columns) of each field in frames that follow one another."""
+    columns = [count for _, count in layout]
+    table = np.frombuffer(data, dtype="<f4").reshape(-1, sum(columns))
+    fields = np.split(table, np.cumsum(columns)[:-1], axis=1)
+    return dict(zip([name for name, _ in layout], fields, strict=True))
+
+
 # values of the fields
 
 AGES = 1e300  # s, the time of a landing that never comes
