@@ -29,7 +29,6 @@ from tandemlift.parts.estimation.push_confirmation import (
     refuted_push,
 )
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, PushEstimatorState
-from tandemlift.parts.estimation.wrench.wind_compensation import PayloadDrag
 from tandemlift.parts.estimation.wrench_push import PushInputs, WrenchPush, WrenchPushState, push_and_state
 from tandemlift.parts.guidance.contact_hold import contact_of
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceState
@@ -250,8 +249,9 @@ def with_flight_phase(push: WrenchPush, known: KnownSurroundings, guidance: obje
 
 
 with_flight_phase.register(FusedPush)(lambda push, known, guidance: known._replace(aloft=aloft(guidance)))
-with_flight_phase.register(PayloadDrag)(lambda wind, known, guidance: known._replace(aloft=aloft(guidance)))
-with_flight_phase.register(PushEstimator)(lambda push, known, at: with_flight_phase(push.windage, known, at))
+with_flight_phase.register(PushEstimator)(  # whose wind compensation would take a floor for wind
+    lambda push, known, guidance: known if isinstance(push.windage, Absent) else known._replace(aloft=aloft(guidance))
+)
 
 
 @surroundings_of.register(Estimators)
