@@ -72,9 +72,10 @@ def wind_on_payload(
     """
     force = Vec3(total(x) * k.ratio_x, total(y) * k.ratio_y, 0.0)
     summed = PayloadDragState(memory.sum * begun + force * taken, memory.count * begun + taken, memory.force)
-    beyond = clip(force - tare_mean(summed), -k.largest, k.largest) * armed
+    beyond = (force - tare_mean(summed)) * armed
     after = chosen(free, low_pass_step(k.low_pass, memory.force, beyond), LowPassState(ZERO, ZERO))
-    return after.value, PayloadDragState(summed.sum, summed.count, after)
+    # behind the low-pass: single samples go beyond the limit by their noise, whose mean a limit before it would move
+    return clip(after.value, -k.largest, k.largest), PayloadDragState(summed.sum, summed.count, after)
 
 
 @law(absent=ZERO)
