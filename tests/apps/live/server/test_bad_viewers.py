@@ -15,9 +15,10 @@ from tandemlift.core.errors import InputError
 
 def test_a_page_that_does_not_read_misses_frames_and_the_others_none(start, monkeypatch):
     class Large(StandIn):
-        def frame(self):
-            return super().frame() * 100
+        def frame(self):  # never the same twice: a flight that stands still is told rarely
+            return super().frame() * 100 + next(shown).to_bytes(8)
 
+    shown = itertools.count()
     monkeypatch.setattr("tandemlift.apps.live.server.RATE", 0.5 / PATIENCE)  # it shows what the test has it show
     server = start(Large())
     raw = server.raw()
