@@ -2,6 +2,8 @@
 
 A file may start from another mission with `extends = "NAME or path"` and change some keys; tables merge, everything
 else is replaced, and another `controller.name` starts from that controller's defaults.
+
+A function that needs a part of a mission takes that table, or `Mission.hover`: their types are here, too.
 """
 
 from tandemlift.missions.changes import merge, tables_of
@@ -16,13 +18,17 @@ from tandemlift.missions.loading import (
     mission_from_text,
     mission_of,
 )
-from tandemlift.missions.mission import Mission, check_keys
+from tandemlift.missions.mission import HoverFacts, Mission, PersonTable, SensorsTable, VehicleTable, check_keys
 
 __all__ = [
     "DATA",
+    "HoverFacts",
     "Mission",
     "MissionLike",
     "MissionTemplate",
+    "PersonTable",
+    "SensorsTable",
+    "VehicleTable",
     "built_in",
     "changed",
     "check",

@@ -9,51 +9,42 @@ from typing import Any, NamedTuple
 from tandemlift.analysis.studies.closed_form import YAW, AxisFeel, axes_of
 from tandemlift.core.errors import FAILS, CheckResult, judged
 from tandemlift.core.types import GRAVITY, LN_20
-from tandemlift.missions import Mission, MissionLike, mission_of
+from tandemlift.missions import HoverFacts, Mission, MissionLike, mission_of
+from tandemlift.missions.flight_checks import flight_checks
 from tandemlift.parts.controllers.interface import tilt_limit_of
-from tandemlift.parts.interaction.passage import least_room, passage_checks, places_of
-from tandemlift.parts.pilot.schedule_checks import Schedule
-from tandemlift.parts.pilot.sensing_checks import (
-    NOISE_SIGMAS,
-    SensorDrift,
-    drift_after,
-    noise_of,
-    push_bandwidths,
-    sensing_checks,
-)
-from tandemlift.parts.rotors.authority import CONTROL
-from tandemlift.parts.rotors.hover import HoverFacts
-from tandemlift.parts.rotors.hover_loads import WindOnParts
 
 DRIFT_SIGMAS = 2.0  # standard deviations of the sensors' drift
+SENSING, NOISE, PASSAGE = ("wind on the payload", "noise", "sampling"), "noise", "passage"  # of `flight_checks`
+
+
+class SensorDrift(NamedTuple):
+    """Drift, and bias without a tare, of a joint's sensors: standard deviations [N], [N m]; and the cause."""
+
+    force: float
+    torque: float
+    why: str
 
 
 def feel_checks(m: Mission, axes: Sequence[AxisFeel]) -> Iterator[CheckResult]:
     """The checks by closed forms."""
-    hover, by_hand, s, e = m.hover, m.by_hand, m.sensors, m.estimator
-    schedule = Schedule(m.phases, m.pushes, m.admittance, by_hand, m.mission.duration)
-    vehicle, wind = hover.vehicle, WindOnParts(m.wind, hover.vehicle, m.initial.euler[2], m.mission.step)
+    hover, by_hand, flown = m.hover, m.by_hand, flight_checks(m)
     if by_hand is not None:
         for limits in zip(axes, by_hand.max_speed, by_hand.max_acceleration, strict=False):
             yield from limit_checks(*limits)
-    yield from sensing_checks(s, m.pilot, e, schedule, wind)
-    if s.model != "none" and m.pilot.push != "truth" and e.wrench == "joints":
-        noise = noise_of(s, vehicle, push_bandwidths(m.pilot, e, by_hand), m.mission.step)
-        tared = (e.tare_start or 0.0) + e.tare_duration
-        lasting = min(max(m.mission.duration - tared, 0.0), m.compliance.bias_time_constant)
-        drift = drift_after(lasting, s.joints, tared=e.tare == "hover" or e.tare_start is not None)
-        yield drift_check(drift, noise, vehicle.count, min(m.admittance.threshold))
+    yield from (result for result in flown if result.check in SENSING)
+    for noise in (result.value for result in flown if result.check == NOISE):
+        drift = drift_of(m)
+        yield drift_check(drift, noise or 0.0, hover.vehicle.count, min(m.admittance.threshold))
         if by_hand is not None and by_hand.yaw.model == "compliant":
             yield yaw_drift_check(drift, hover, by_hand.yaw.threshold)
     if m.actuators.model == "rotors":
         tilts = [tilt_limit_of(m.controller), None if by_hand is None else by_hand.max_tilt]
         thrust = hover.faulty_lift * (1.0 if by_hand is None else by_hand.thrust_fraction)
         yield from rotor_checks(hover, axes, thrust, [t for t in tilts if t is not None], m.compliance.yaw.max_moment)
-    yield from passage_checks(m.person, m.corridor, m.all_walls, m.initial, vehicle)
-    places = places_of(m.person, m.corridor, m.initial, m.hover.vehicle) if m.all_walls else None
-    if places is not None:
-        room = least_room(places, m.all_walls, vehicle)[0] - max(q.guard_radius for q in vehicle.quadrotors)
-        yield stop_check(room, axes)
+    for passage in (result for result in flown if result.check == PASSAGE):
+        yield passage
+        if passage.value is not None and passage.limit is not None:
+            yield stop_check(passage.limit - passage.value, axes)
 
 
 def limit_checks(k: AxisFeel, speed: float, acceleration: float) -> Iterator[CheckResult]:
@@ -88,12 +79,24 @@ def _slower(k: AxisFeel, most: float) -> str:
     return f"allow it at least {time:.2g} s for {k.final_speed:.3g} m/s, or choose {most_speed}"
 
 
+def drift_of(m: Mission) -> SensorDrift:
+    """The drift that accumulates until it is subtracted as a bias, or the flight ends."""
+    e, joints, tared = m.estimator, m.sensors.joints, m.estimator.tare == "hover" or m.estimator.tare_start is not None
+    lasting = m.mission.duration - (e.tare_start or 0.0) - e.tare_duration
+    lasting = min(max(lasting, 0.0), m.compliance.bias_time_constant)
+    force, torque = (
+        math.hypot(drift * math.sqrt(lasting), 0.0 if tared else bias)
+        for drift, bias in ((joints.force_drift, joints.force_bias), (joints.torque_drift, joints.torque_bias))
+    )
+    return SensorDrift(force, torque, f"of {lasting:.3g} s" if tared else "and bias, as there is no tare,")
+
+
 REMEDY = "raise the threshold, tare (estimator.tare_start), or lower the drift and bias of sensors.joints"
 
 
 def drift_check(drift: SensorDrift, noise: float, joints: int, threshold: float) -> CheckResult:
-    """Compare noise and drift of the joint sensors with the smallest threshold; in yaw, drift alone."""
-    value = NOISE_SIGMAS * noise + DRIFT_SIGMAS * drift.force * math.sqrt(joints)
+    """Compare noise [N] and drift of the joint sensors with the smallest threshold; in yaw, drift alone."""
+    value = noise + DRIFT_SIGMAS * drift.force * math.sqrt(joints)
     text = (
         f"noise and drift {drift.why} make {value:.3g} N of the measured push, and admittance.threshold = "
         f"{threshold:g} N: the vehicle creeps while nobody pushes; {REMEDY}"
@@ -145,11 +148,11 @@ def rotor_checks(
 
 
 def _yaw_check(hover: HoverFacts, k: AxisFeel, most: float) -> CheckResult:
-    own, limit = float(hover.vehicle.inertia[2, 2]), (1.0 - CONTROL) * float(hover.authority[2])
+    own, limit = float(hover.vehicle.inertia[2, 2]), float(hover.usable_authority[2])
     needed = max(min(k.beyond, most), abs(own * k.acceleration - k.beyond))
     text = (
-        f"under {k.push:g} N m the rotors must give {needed:.3g} N m of yaw moment, and {1.0 - CONTROL:.0%} of what "
-        f"they have in hover is {limit:.3g} N m: lower compliance.yaw.max_moment, or leave out compliance.yaw.inertia"
+        f"under {k.push:g} N m the rotors must give {needed:.3g} N m of yaw moment, and have {limit:.3g} N m in "
+        "hover beside their reserve for control: lower compliance.yaw.max_moment, or leave out compliance.yaw.inertia"
     )
     return judged("rotors", needed, limit, "N m", text, subject=YAW)
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -20,7 +19,7 @@ from tandemlift.parts.guidance.guidance import PilotTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.pilot.schedule_checks import Schedule
 from tandemlift.parts.rotors.hover_loads import SIGMAS, WindOnParts
-from tandemlift.parts.sensors.sensors_table import JointSensors, SensorsTable, noise_scale
+from tandemlift.parts.sensors.sensors_table import SensorsTable, noise_scale
 
 REMOVED = 0.75  # fraction of the wind on the payload that estimator.wind_compensation subtracts
 CARRIED = 2.0  # m, displacement by gusts that is accepted in turbulence, as in mission gusts
@@ -107,23 +106,6 @@ def noise_of(s: SensorsTable, vehicle: Vehicle, bandwidths: Sequence[float], ste
     # the push is m a − Σ f: the variances of N joints and of the accelerometer add
     joints = left(s.joints.force_noise, s.interval if s.joints.interval is None else s.joints.interval)
     return math.hypot(math.sqrt(vehicle.count) * joints, left(vehicle.payload.mass * s.accelerometer.noise, s.interval))
-
-
-class SensorDrift(NamedTuple):
-    """Drift, and bias without a tare, of a joint's sensors: standard deviations [N], [N m]; and the cause."""
-
-    force: float
-    torque: float
-    why: str
-
-
-def drift_after(lasting: float, joints: JointSensors, *, tared: bool) -> SensorDrift:
-    """The drift that accumulates over a time [s]."""
-    force, torque = (
-        math.hypot(drift * math.sqrt(lasting), 0.0 if tared else bias)
-        for drift, bias in ((joints.force_drift, joints.force_bias), (joints.torque_drift, joints.torque_bias))
-    )
-    return SensorDrift(force, torque, f"of {lasting:.3g} s" if tared else "and bias, as there is no tare,")
 
 
 def sampling_checks(s: SensorsTable, push: float, estimate: float | None) -> Iterator[CheckResult]:

@@ -12,13 +12,11 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 from tandemlift.core.errors import CLOSE, FAILS, CheckResult, judged, refused, warned
-from tandemlift.core.types import Array
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.rotors.hover import HoverFacts
+from tandemlift.parts.rotors.hover import CONTROL, HoverFacts
 from tandemlift.parts.rotors.hover_loads import ALWAYS, VehicleLoads
 
 AXES = ("roll", "pitch", "yaw")
-CONTROL = 0.15  # of the largest moment, reserved for control, as supervision.checks.thrust_fraction does for the thrust
 PUSH = 3.0  # N, of a hand that is not gentle
 CLOCKED = 0.95  # of the largest thrust that a flight with scheduled guidance may need
 
@@ -42,7 +40,7 @@ def authority_checks(
     yield thrust
     if thrust.value is None or thrust.value < hover.faulty_lift:
         yield tilt_check(hover, loads, tilt)
-    yield from moment_checks(hover.authority, loads)
+    yield from moment_checks(hover, loads)
     if by_hand is not None:
         yield from push_checks(hover)
     if lifting is not None:
@@ -97,11 +95,12 @@ def tilt_check(hover: HoverFacts, loads: Sequence[VehicleLoads], tilt: float | N
     return judged("tilt", worst.across, limit, "N", text, subject=worst.when)
 
 
-def moment_checks(authority: Array, loads: Sequence[VehicleLoads]) -> Iterator[CheckResult]:
-    """Compare the moment of all loads about each axis with that which the rotors have left in hover [N m] (3)."""
+def moment_checks(hover: HoverFacts, loads: Sequence[VehicleLoads]) -> Iterator[CheckResult]:
+    """Compare the moment of all loads about each axis with that which the rotors have left in hover."""
+    authority, usable = hover.authority, hover.usable_authority
     for i, axis in enumerate(AXES):
         worst = max(loads, key=lambda load: float(load.about[i]))
-        value, limit = float(worst.about[i]), (1.0 - CONTROL) * float(authority[i])
+        value, limit = float(worst.about[i]), float(usable[i])
         text = (
             f"{_at(worst.when)}wind, disturbance and pushes exert a {axis} moment of {value:.3g} N m, and the "
             f"rotors give {authority[i]:.3g} N m in hover, of which {limit:.3g} N m leaves {CONTROL:.0%} for control: "

@@ -13,6 +13,8 @@ from tandemlift.parts.rotors.allocation import AllocationTable
 from tandemlift.parts.rotors.rotor_faults import FaultTable
 from tandemlift.parts.rotors.rotors import ActuatorsTable
 
+CONTROL = 0.15  # of the largest moment, reserved for control, as supervision.checks.thrust_fraction does for the thrust
+
 
 class HoverFacts(NamedTuple):
     """A vehicle with its rotors, and the facts of its hover.
@@ -67,6 +69,13 @@ class HoverFacts(NamedTuple):
         return sum(q.lag_up + q.lag_down for q in self.vehicle.quadrotors) / (2.0 * self.vehicle.count)
 
     @property
+    def response_time(self) -> float:
+        """The time after which rotors follow a command [s]: delay and the slower lag; 0 of ideal ones."""
+        if self.actuators.model == "ideal":
+            return 0.0
+        return self.actuators.delay + max(max(q.lag_up, q.lag_down) for q in self.vehicle.quadrotors)
+
+    @property
     def thrusts(self) -> Array:
         """Thrusts of all rotors [N] by the allocation of the weight, at the real centre of mass (N × 4)."""
         inverse, (x, y, _) = self.vehicle.allocation(self.allocation.weights), self.plant.center_of_mass_offset
@@ -95,6 +104,11 @@ class HoverFacts(NamedTuple):
         """
         column = self.vehicle.allocation(self.allocation.weights)[:, 1:]
         return np.minimum(self._room(column), self._room(-column))
+
+    @property
+    def usable_authority(self) -> Array:
+        """`authority` less what is reserved for control [N m] (3)."""
+        return (1.0 - CONTROL) * self.authority
 
     def largest_push(self, place: Array, way: Array) -> float:
         """The push [N] along a unit vector at a place from the centre of mass [m] with which a rotor saturates.
