@@ -18,8 +18,8 @@ import numpy as np
 
 import tandemlift as tl
 from tandemlift.analysis.certification.felt_admittance import felt_admittance, stiffness_limit
-from tandemlift.analysis.certification.flown import held, kicked, stability, stability_in_hand
-from tandemlift.analysis.certification.parameters import PARAMETERS
+from tandemlift.analysis.certification.flown import arm_keys, hover_as_flown, kick_keys, stability, stability_in_hand
+from tandemlift.analysis.certification.parameters import PARAMETERS, with_keys
 from tandemlift.analysis.linearization.loop_margins import is_stable, open_loop
 from tandemlift.missions import Mission
 
@@ -53,9 +53,11 @@ def delay_and_lag(axes: Any, m: Mission) -> None:
     """Delay and lag of the rotors [ms]."""
     loop = open_loop(m)
     delays, lags = np.linspace(0.005, 0.08, COUNT), np.linspace(0.01, 0.13, COUNT)
-    keys = PARAMETERS["delay"].keys, PARAMETERS["lag"].keys
-    places = [(d, g) for d in delays for g in lags]
-    calm = flown(places, lambda d, g: kicked(m, {**keys[0](m, d), **keys[1](m, g)}), lambda f: not stability(f))
+    keys, (hover, at) = [PARAMETERS[name].keys for name in ("delay", "lag")], hover_as_flown(m)
+    kick, places = kick_keys(m.hover, at), [(d, g) for d in delays for g in lags]
+    calm = flown(
+        places, lambda d, g: with_keys(hover, kick | keys[0](m, d) | keys[1](m, g)), lambda f: not stability(f)
+    )
     grid = np.array(
         [[is_stable(loop, d, g) for d in np.linspace(0.0, 0.085, LINE)] for g in np.linspace(0.0, 0.135, LINE)]
     )
@@ -66,8 +68,12 @@ def delay_and_lag(axes: Any, m: Mission) -> None:
 def arm_and_delay(axes: Any, m: Mission) -> None:
     """Stiffness of an arm [N/m] and delay of the rotors [ms]."""
     delays, arms = np.linspace(0.0, 0.04, COUNT), np.geomspace(5.0, 80.0, COUNT)
-    places = [(k, d) for k in arms for d in delays]
-    calm = flown(places, lambda k, d: held(m, k, {"actuators.delay": d}), lambda f: not stability_in_hand(f))
+    places, (hover, at) = [(k, d) for k in arms for d in delays], hover_as_flown(m)
+
+    def held(k: float, d: float) -> Mission:
+        return with_keys(hover, arm_keys(m.person, hover.initial.position, at, k) | {"actuators.delay": d})
+
+    calm = flown(places, held, lambda f: not stability_in_hand(f))
     line = [stiffness_limit(felt_admittance(m, {"actuators.delay": d}), m.person.damping) for d in delays]
     axes.plot(line, 1e3 * delays, "k")
     axes.set_xscale("log")
@@ -79,12 +85,13 @@ def arm_and_delay(axes: Any, m: Mission) -> None:
 def mass_and_thrust(axes: Any, m: Mission) -> None:
     """Mass over the pilot's, and efficiency of all rotors."""
     masses, shares = np.linspace(0.5, 1.7, COUNT), np.linspace(0.4, 1.0, COUNT)
-    count = len(m.vehicle.quadrotors)
+    count, (hover, at) = len(m.vehicle.quadrotors), hover_as_flown(m)
 
     def weaker(scale: float, share: float) -> Mission:
         fault = {"time": 0.0, "efficiency": float(share)}
         rotors = [{**fault, "quadrotor": q + 1, "rotor": r + 1} for q in range(count) for r in range(4)]
-        return kicked(m, {"plant.mass_scale": float(scale), **({"faults": rotors} if share < 1.0 else {})})
+        changes = {"plant.mass_scale": float(scale), **({"faults": rotors} if share < 1.0 else {})}
+        return with_keys(hover, kick_keys(m.hover, at) | changes)
 
     places = [(x, y) for x in masses for y in shares]
     axes.plot(masses, masses * m.hover.vehicle.weight / m.hover.lift, "k")

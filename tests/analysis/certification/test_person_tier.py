@@ -101,7 +101,7 @@ def test_models_of_other_masses_and_dampings_follow_from_three():
 
 def test_a_person_who_leads_without_delay_feels_like_their_gain_at_low_frequency():
     mission = load_mission("zigzag")
-    Z = leading_impedance(mission, np.array([1e-3]), mission.person.delay)
+    Z = leading_impedance(mission.person, np.array([1e-3]), mission.person.delay)
     assert Z[0].real == pytest.approx(mission.person.gain, rel=0.01)
 
 

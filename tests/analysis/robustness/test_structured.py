@@ -41,7 +41,7 @@ def tier():
 
 @cache
 def deviations():
-    widths = parameters_of(iris(), BOX)
+    widths = parameters_of(iris().hover, BOX)
     hovers = hovers_of(iris(), widths)
     return DeviatingLoop(family_at(hovers, hovers.w), widths)
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.analysis.certification.felt_admittance import LARGEST, FeltAdmittance, felt_admittance, stiffness_limit
-from tandemlift.analysis.certification.flown import held, stability_in_hand
+from tandemlift.analysis.certification.flown import arm_keys, hover_as_flown, stability_in_hand
+from tandemlift.analysis.certification.parameters import with_keys
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission
 from tandemlift.simulation.fly import fly_many
@@ -73,21 +73,26 @@ def family_limit(family: AdmittanceFamily, mass: float, damping: float, arm: flo
     return min(LARGEST, *(stiffness_limit(axis, arm) for axis in axes))
 
 
-def admittance_map(mission: Mission) -> dict[str, Any]:
-    """The stiffness limit of massless arms over virtual mass and damping, each around the mission's."""
+def admittance_map(mission: Mission, *, fly: bool = False) -> dict[str, Any]:
+    """The stiffness limit of massless arms over virtual mass and damping, each around the mission's.
+
+    If there is one in the mission and `fly` is true: with flights, their virtual mass, damping, and whether they are
+    calm in an arm's hand of that stiffness.
+    """
     a, arm = mission.admittance, mission.person.damping
     masses, dampings = (np.geomspace(*AROUND, MAP) * max(max(x), LEAST_DAMPING) for x in (a.mass, a.damping))
     family = admittance_family(mission)
     rows = [[family_limit(family, m, c, arm) for c in dampings] for m in masses]
     grid = {"mass": masses.tolist(), "damping": dampings.tolist(), "stiffness": rows}
     here = [max(a.mass), max(max(a.damping), LEAST_DAMPING)]
-    return {**grid, "mission": here, "arm_stiffness": family_limit(family, here[0], here[1], arm)}
-
-
-def flown_map(mission: Mission, data: Mapping[str, Any]) -> dict[str, Any]:
-    """The data of a map with flights over it: virtual mass, damping, and whether an arm's hand stays calm."""
-    places = [(m, c) for c in data["damping"][1::FLOWN] for m in data["mass"][::FLOWN_MASS]]
-    keys = [{"admittance.mass": [m] * 3, "admittance.damping": [c] * 3} for m, c in places]
-    flights = fly_many([held(mission, data["arm_stiffness"], changes) for changes in keys])
+    stiffness = family_limit(family, here[0], here[1], arm)
+    data = {**grid, "mission": here, "arm_stiffness": stiffness}
+    if not fly or stiffness >= LARGEST:
+        return data
+    hover, at = hover_as_flown(mission)
+    held = arm_keys(mission.person, hover.initial.position, at, stiffness)
+    places = [(m, c) for c in grid["damping"][1::FLOWN] for m in grid["mass"][::FLOWN_MASS]]
+    keys = [{**held, "admittance.mass": [m] * 3, "admittance.damping": [c] * 3} for m, c in places]
+    flights = fly_many([with_keys(hover, changes) for changes in keys])
     calm = [not stability_in_hand(flight) for flight in flights]
     return {**data, "flown": [[*place, stable] for place, stable in zip(places, calm, strict=True)]}

@@ -6,7 +6,7 @@ A change of mass or inertia changes what the joint sensors feel, so that it is m
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -33,15 +33,13 @@ class LinearLimit(NamedTuple):
     frequency: float
 
 
-def fastest_growth(mission: Mission, name: str, value: float) -> complex | None:
-    """The eigenvalue [1/s] of a calm hover that grows fastest, with a value of a parameter; None if none grows.
+def fastest_growth(calm: Mission, at: float, changes: dict[str, Any]) -> complex | None:
+    """The eigenvalue [1/s] of a hover, calm at a time [s], that grows fastest with changes by key; None if none grows.
 
     A hover that cannot be flown to grows, by an infinite rate.
     """
-    lag = mission.hover.lag if mission.actuators.model == "rotors" else None
     try:
-        calm, at = calm_mission(mission, lag=lag)
-        changed = with_keys(calm, PARAMETERS[name].keys(mission, value))
+        changed = with_keys(calm, changes)
         model = linearize(changed, at, inputs=["thrust_offsets"], outputs=["rotor_thrusts"], kink_tolerance=NO_KINK)
     except InputError:
         return complex(math.inf)
@@ -64,22 +62,28 @@ def linear_limit(mission: Mission, name: str, *, growing: bool, near: float | No
         near: a value on that side near the limit, at which the search begins; by default, the nominal one.
 
     Raises:
-        InputError: no parameter has this name.
+        InputError: no parameter has this name, or the mission cannot hover calmly.
     """
-    nominal, step = PARAMETERS[name].nominal(mission), STEP if near is None else CLOSER
+    p, step = PARAMETERS[name], STEP if near is None else CLOSER
+    nominal = p.nominal(mission)
+    calm, at = calm_mission(mission, lag=mission.hover.lag if mission.actuators.model == "rotors" else None)
+
+    def growth(value: float) -> complex | None:
+        return fastest_growth(calm, at, p.keys(mission, value))
+
     factor = step if growing else 1.0 / step
     stable, value = nominal, nominal * factor if near is None else near
-    s = fastest_growth(mission, name, value)
+    s = growth(value)
     while s is None:
         stable, value = value, value * factor
         if not LEAST * nominal < value < MOST * nominal:
             return LinearLimit(math.inf if growing else 0.0, 0.0)
-        s = fastest_growth(mission, name, value)
+        s = growth(value)
     while stable == nominal and abs(math.log(value / nominal)) > 1.01 * math.log(step):  # back from `near`
-        found = fastest_growth(mission, name, value / factor)
+        found = growth(value / factor)
         stable, value, s = (value / factor, value, s) if found is None else (stable, value / factor, found)
     while abs(value - stable) > ACCURACY * value:
         middle = math.sqrt(value * stable)  # of factors, the middle is the geometric mean
-        found = fastest_growth(mission, name, middle)
+        found = growth(middle)
         stable, value, s = (middle, value, s) if found is None else (stable, middle, found)
     return LinearLimit(math.sqrt(value * stable), abs(s.imag) if math.isfinite(s.real) else 0.0)

@@ -7,7 +7,7 @@ stable if all rates of turn and the climb decay from the time after the push to 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -19,7 +19,7 @@ from tandemlift.analysis.linearization.loop_margins import UNROUNDED, calm_missi
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array
-from tandemlift.missions import Mission, check, format_toml, merge, tables_of
+from tandemlift.missions import HoverFacts, Mission, PersonTable, check, format_toml, merge, tables_of
 from tandemlift.simulation.fly import Flight, fly_many
 
 LEAST, MOST, COARSE, FINE = 0.5, 1.6, 16, 12  # factors of the predicted limit; flights that look for the limit
@@ -55,10 +55,12 @@ def trial_of(mission: Mission, name: str) -> LimitTrial:
     Raises:
         InputError: no parameter has this name.
     """
-    p = parameter(name)
+    p, (hover, at) = parameter(name), hover_as_flown(mission)
     if name == ARM:
-        return LimitTrial(lambda k: held(mission, k), stability_in_hand, 0.0)
-    return LimitTrial(lambda x: kicked(mission, p.keys(mission, x)), stability, p.nominal(mission))
+        place = hover.initial.position
+        return LimitTrial(lambda k: with_keys(hover, arm_keys(mission.person, place, at, k)), stability_in_hand, 0.0)
+    kick = kick_keys(mission.hover, at)
+    return LimitTrial(lambda x: with_keys(hover, kick | p.keys(mission, x)), stability, p.nominal(mission))
 
 
 def flown_limit(trial: LimitTrial, predicted: float, *, threads: int | None = None) -> FlownLimit:
@@ -117,35 +119,26 @@ def hover_as_flown(mission: Mission) -> tuple[Mission, float]:
     return check(merge(t, {"sensors": UNROUNDED}), mission.mission.name, quiet=True), at
 
 
-def kicked(mission: Mission, changes: Mapping[str, Any]) -> Mission:
-    """A calm hover of a mission with its own rotors and changes by dotted key, and one weak push.
+def _times(at: float) -> dict[str, Any]:
+    return {"mission.duration": at + SETTLES + LONG + WATCHED, "mission.log_interval": LOGGED}
 
-    Raises:
-        InputError: the changed mission is invalid.
-    """
-    hover, at = hover_as_flown(mission)
+
+def kick_keys(hover: HoverFacts, at: float) -> dict[str, Any]:
+    """The changes of a hover that is calm at a time [s], by dotted key, for one weak push of its vehicle."""
     # at the first quadrotor, so that the push turns the vehicle about all axes
-    place = np.add(mission.hover.vehicle.origin, mission.vehicle.quadrotors[0].position).tolist()
+    place = np.add(hover.vehicle.origin, hover.vehicle.quadrotors[0].position).tolist()
     pushes = [{"force": [PUSH] * 3, "time": at + 3.0 * LASTS, "sigma": LASTS, "point": place}]
-    times = {"mission.duration": at + SETTLES + LONG + WATCHED, "mission.log_interval": LOGGED}
-    return with_keys(hover, {"pushes": pushes, **times, **changes})
+    return {"pushes": pushes, **_times(at)}
 
 
-def held(mission: Mission, stiffness: float, changes: Mapping[str, Any] | None = None) -> Mission:
-    """A calm hover whose grip is held by a massless arm, which pulls it a little aside; with changes by dotted key.
-
-    Raises:
-        InputError: a change is invalid.
-    """
-    hover, at = hover_as_flown(mission)
-    x, y = hover.initial.position[:2]
+def arm_keys(p: PersonTable, position: Sequence[float], at: float, stiffness: float) -> dict[str, Any]:
+    """The changes of a hover that is calm at a time [s], for a massless arm that holds its grip and pulls it aside."""
+    x, y = position[:2]
     aside = PULL / stiffness
-    place = {"point": [x + aside, y + mission.person.grip + aside], "dwell": 1e4}
-    arm = {"stiffness": stiffness, "damping": mission.person.damping, "tremor": 0.0, "max_force": 1e4}
-    person = {"model": "hold", "grip": mission.person.grip, "path": [place], "start_time": at, "delay": 0.01, **arm}
-    times = {"mission.duration": at + SETTLES + LONG + WATCHED, "mission.log_interval": LOGGED}
-    sensitive = {"admittance.threshold": [SENSITIVE] * 3}
-    return with_keys(hover, {"person": person, **sensitive, **times, **(changes or {})})
+    place = {"point": [x + aside, y + p.grip + aside], "dwell": 1e4}
+    arm = {"stiffness": stiffness, "damping": p.damping, "tremor": 0.0, "max_force": 1e4}
+    person = {"model": "hold", "grip": p.grip, "path": [place], "start_time": at, "delay": 0.01, **arm}
+    return {"person": person, "admittance.threshold": [SENSITIVE] * 3, **_times(at)}
 
 
 def motions(flight: Flight) -> Array:

@@ -5,16 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 
-from tandemlift.analysis.linearization.linear_model import Mode
+from tandemlift.analysis.linearization.linear_model import Mode, modes_of
+from tandemlift.analysis.linearization.linearize import linearize
 from tandemlift.analysis.linearization.loop_margins import (
+    NO_KINK,
     OpenLoop,
     axis_margins,
+    calm_mission,
     is_stable,
     largest,
     open_loop,
     rotor_delay_and_lag,
     rotors_response,
-    slowest_modes,
 )
 from tandemlift.core.errors import CLOSE, FAILS, REFUSED, CheckResult, InputError, judged, noted
 from tandemlift.missions import MissionLike, mission_of
@@ -24,6 +26,7 @@ from tandemlift.missions.flight_checks import FlightCheck
 NEAR_PHASE = 1.0 / 6.0  # of 180 deg: less than 30 deg of phase left is close
 NEAR_GAIN = 0.4  # a gain that may grow by less than a factor of 1.7, or fall by less, is close
 NEAR_DELAY = 0.3
+SLOWEST = 5  # modes that are checked
 
 LOOP_CHECKS = (
     FlightCheck("loop phase", "phase lag of an axis where its loop's gain is 1", "180°", "deg", "", "the gains"),
@@ -81,7 +84,9 @@ def check(mission: MissionLike) -> tuple[CheckResult, ...]:
     limits = (*results, *delay_and_lag_limits(loop, delay, lag))
     if not is_stable(loop, delay, lag):
         return limits
-    return *limits, *margins(loop, delay, lag), *modes(slowest_modes(mission, lag))
+    calm, at = calm_mission(mission, lag=lag)
+    closed = linearize(calm, at, kink_tolerance=NO_KINK).connected()
+    return *limits, *margins(loop, delay, lag), *modes(modes_of(closed).modes)
 
 
 def delay_and_lag_limits(loop: OpenLoop, delay: float, lag: float) -> Iterator[CheckResult]:
@@ -122,9 +127,9 @@ def margins(loop: OpenLoop, delay: float, lag: float) -> Iterator[CheckResult]:
             yield judged("loop gain", value, limit, "1", "", subject=subject, near=NEAR_GAIN)
 
 
-def modes(least_damped: Iterable[Mode]) -> Iterator[CheckResult]:
-    """Check that no mode grows."""
-    for mode in least_damped:
+def modes(every: Iterable[Mode]) -> Iterator[CheckResult]:
+    """Check that no mode grows: the least damped ones."""
+    for mode in sorted((mode for mode in every if mode.frequency > 0.0), key=lambda mode: mode.damping)[:SLOWEST]:
         names = ", ".join(name for name, _ in mode.states[:2])
         text = f"a mode of {mode.frequency:.3g} Hz grows: {names}"
         yield judged("loop mode", -mode.damping, 0.0, "1", text, subject=f"{mode.frequency:.3g} Hz: {names}")

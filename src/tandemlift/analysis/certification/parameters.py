@@ -29,22 +29,14 @@ class UncertainParameter(NamedTuple):
     keys: Callable[[Mission, float], dict[str, Any]]
 
 
-def _lag_keys(mission: Mission, lag: float) -> dict[str, Any]:
-    directions = ("lag_up", "lag_down")
-    return {f"vehicle.quadrotors.{i}.{key}": lag for i in range(len(mission.vehicle.quadrotors)) for key in directions}
+def _lag_keys(quadrotors: int, lag: float) -> dict[str, Any]:
+    return {f"vehicle.quadrotors.{i}.{key}": lag for i in range(quadrotors) for key in ("lag_up", "lag_down")}
 
 
-def _inertia(axis: int) -> Callable[[Mission, float], dict[str, Any]]:
-    def keys(mission: Mission, scale: float) -> dict[str, Any]:
-        scales = list(mission.plant.inertia_scale)
-        scales[axis] = scale
-        return {"plant.inertia_scale": scales}
-
-    return keys
-
-
-def _scale_of(axis: int) -> Callable[[Mission], float]:
-    return lambda mission: mission.plant.inertia_scale[axis]
+def _inertia(i: int, axis: str) -> UncertainParameter:
+    return UncertainParameter(
+        f"{axis} inertia", "1", lambda m: m.plant.inertia_scale[i], lambda m, x: {f"plant.inertia_scale.{i}": x}
+    )
 
 
 PARAMETERS = {
@@ -53,9 +45,14 @@ PARAMETERS = {
         UncertainParameter(
             "delay", "s", lambda m: rotor_delay_and_lag(m.hover)[0], lambda m, x: {"actuators.delay": x}
         ),
-        UncertainParameter("lag", "s", lambda m: rotor_delay_and_lag(m.hover)[1], _lag_keys),
+        UncertainParameter(
+            "lag",
+            "s",
+            lambda m: rotor_delay_and_lag(m.hover)[1],
+            lambda m, x: _lag_keys(len(m.vehicle.quadrotors), x),
+        ),
         UncertainParameter("mass", "1", lambda m: m.plant.mass_scale, lambda m, x: {"plant.mass_scale": x}),
-        *(UncertainParameter(f"{axis} inertia", "1", _scale_of(i), _inertia(i)) for i, axis in enumerate(AXES[1:])),
+        *(_inertia(i, axis) for i, axis in enumerate(AXES[1:])),
         UncertainParameter(ARM, "N/m", lambda m: m.person.stiffness, lambda m, x: {"person.stiffness": x}),
     )
 }

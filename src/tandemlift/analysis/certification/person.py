@@ -9,10 +9,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.analysis.certification.admittance_map import admittance_map, flown_map
+from tandemlift.analysis.certification.admittance_map import admittance_map
 from tandemlift.analysis.certification.contact_limits import HAND, contact_claims
 from tandemlift.analysis.certification.felt_admittance import (
-    LARGEST,
     ArmImpedance,
     FeltAdmittance,
     felt_admittance,
@@ -25,7 +24,7 @@ from tandemlift.analysis.certification.parameters import ARM
 from tandemlift.analysis.linearization.claims import Claim, Tier
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
-from tandemlift.missions import Mission
+from tandemlift.missions import Mission, PersonTable
 
 TITLE = "Person: an arm that holds the vehicle, and contact"
 ASSUMPTIONS = (
@@ -57,13 +56,13 @@ class ArmBox(NamedTuple):
         return self
 
 
-def leading_impedance(mission: Mission, w: Array, delay: float) -> NDArray[np.complexfloating]:
+def leading_impedance(p: PersonTable, w: Array, delay: float) -> NDArray[np.complexfloating]:
     """Z (F,) of a person with model "pull" who leads the grip and sees it with a delay [s]: `parts.interaction.person`.
 
     The hand moves, through the muscles, to the seen grip, predicted over the delay and the muscles' lag, and ahead of
     it by the force for the missing speed over the stiffness.
     """
-    p, s = mission.person, 1j * w
+    s = 1j * w
     seen = np.exp(-s * delay) / (1.0 + p.lag * s) ** 2
     arm = p.stiffness / s + p.damping
     return arm * (1.0 - seen * (1.0 + s * (delay + 2.0 * p.lag) - s * p.gain / p.stiffness))
@@ -82,12 +81,11 @@ def person_tier(mission: Mission, box: ArmBox, *, fly: bool = False) -> Tier:
     except InputError as error:
         return Tier("person", TITLE, ASSUMPTIONS, reason=f"there is no linear model: {error}")
     contact = contact_claims(mission.hover.mass, max(mission.compliance.max_speed))
-    claims = (*_passivity(felt), *_arms(mission, felt, box), *contact)
-    drawn = admittance_map(mission)
+    claims = (*_passivity(felt), *_arms(mission.person, felt, box), *contact)
     curves = {
         "frequency": felt.w.tolist(),
         **{axis: felt.Y[:, i, i].real.tolist() for i, axis in enumerate("xyz")},
-        "map": flown_map(mission, drawn) if fly and drawn["arm_stiffness"] < LARGEST else drawn,
+        "map": admittance_map(mission, fly=fly),
     }
     return Tier("person", TITLE, ASSUMPTIONS, claims, curves)
 
@@ -110,10 +108,9 @@ def _passivity(felt: FeltAdmittance) -> Iterator[Claim]:
         yield Claim("passive up to", axis, upto, "Hz", None, text)
 
 
-def _arms(mission: Mission, felt: FeltAdmittance, box: ArmBox) -> Iterator[Claim]:
+def _arms(p: PersonTable, felt: FeltAdmittance, box: ArmBox) -> Iterator[Claim]:
     """Limits of arms that hold the vehicle, and of the delay of a person who leads it."""
-    p, w = mission.person, felt.w
-    at = stiffness_limit(felt, p.damping)
+    w, at = felt.w, stiffness_limit(felt, p.damping)
     text = f"massless, with the damping of [person], {p.damping:g} N s/m; [person] has {p.stiffness:g} N/m"
     frequency = math.nan
     if at < math.inf:
@@ -139,7 +136,7 @@ def _arms(mission: Mission, felt: FeltAdmittance, box: ArmBox) -> Iterator[Claim
     heavy = largest_stable(lambda m: is_coupled_stable(felt, ArmImpedance(0.0, p.damping, m).impedance(w)), 0.01)
     text = f"rigidly at the grip, with {p.damping:g} N s/m; a hand has about {HAND:g} kg, mostly behind soft tissue"
     yield Claim("hand mass limit", "", heavy, "kg", None, text)
-    late = largest_stable(lambda T: is_coupled_stable(felt, leading_impedance(mission, w, T)), 0.01, 10.0)
+    late = largest_stable(lambda T: is_coupled_stable(felt, leading_impedance(p, w, T)), 0.01, 10.0)
     text = f"of a person who leads the vehicle, with the other keys of [person]; theirs is {p.delay:g} s"
     yield Claim("reaction delay limit", "", late, "s", p.delay, text)
 

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.analysis.linearization.frequency_response import frequency_response
-from tandemlift.analysis.linearization.linear_model import LinearModel, Mode, modes_of
+from tandemlift.analysis.linearization.linear_model import LinearModel
 from tandemlift.analysis.linearization.linearize import linearize
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
@@ -43,7 +43,6 @@ RESTING = 0.02  # m/s and rad/s, of a calm hover
 FIRST, MOST = 1e-4, 100.0  # s, the shortest and the longest delay and lag that are tried
 RELATIVE = 1e-4  # accuracy of the results
 UNROUNDED = {"joints": {"force_resolution": 0.0, "torque_resolution": 0.0}}  # changes of a table of sensors
-SLOWEST = 5  # modes that are checked
 FINER = 10  # frequencies for each at which a response is computed
 
 
@@ -157,17 +156,6 @@ def is_calm(model: LinearModel) -> bool:
     motion = {v.name: x for v, x in zip(model.states, model.point.x0, strict=True)}
     names = [f"{what}.{axis}" for what in ("velocity", "rates") for axis in "xyz"]
     return all(abs(motion.get(name, 0.0)) < RESTING for name in names)
-
-
-def slowest_modes(mission: Mission, lag: float) -> list[Mode]:
-    """The least damped modes of the closed step with the mission's delay and a lag of the rotors [s].
-
-    Raises:
-        InputError: the flight is lost.
-    """
-    calm, at = calm_mission(mission, lag=lag)
-    modes = modes_of(linearize(calm, at, kink_tolerance=NO_KINK).connected()).modes
-    return sorted((mode for mode in modes if mode.frequency > 0.0), key=lambda mode: mode.damping)[:SLOWEST]
 
 
 def rotor_delay_and_lag(hover: HoverFacts) -> tuple[float, float]:

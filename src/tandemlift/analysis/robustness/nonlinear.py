@@ -21,7 +21,7 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, check, tables_of
 from tandemlift.parts.pilot.thrust_bounds import RotorAxes, commanded_thrusts, disturb, rotor_axes
-from tandemlift.simulation.pilot_api import pilot_at_start
+from tandemlift.simulation.pilot_api import PilotData, pilot_at_start
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.stepping import Stepper
 
@@ -159,15 +159,13 @@ class OffsetFlights:
         return FlownLimit(low, high, math.nan, "not at rest")
 
 
-def _offset_claims(mission: Mission, bounds: OffsetBounds, fly: bool) -> Iterator[Claim]:
-    flights = OffsetFlights(mission) if fly else None
+def _offset_claims(bounds: OffsetBounds, flights: OffsetFlights | None, command: str) -> Iterator[Claim]:
     for name in DISTURBED:
         what, axis = name.split(".")
         size = bounds.farthest({name: 1.0})
         shown = "" if size is None or what != "attitude" else f" ({math.degrees(size):.3g} deg)"
         text = f"with {what} off by less than this{shown} along {axis}, thrust limits do not prevent a return to hover"
         flown = flights.limit(name, size) if flights is not None and size is not None else None
-        command = f"tandemlift certify {mission.mission.name} --fly"
         yield Claim("offset recovered", name, size, UNITS[what], text=text, command=command, flown=flown)
 
 
@@ -178,10 +176,9 @@ def box_of(half: Array) -> tuple[Array, Array]:
     return np.array([x.ravel() for x in low]), np.array([x.ravel() for x in high])
 
 
-def _box_claims(mission: Mission) -> Iterator[Claim]:
-    pilot = pilot_at_start(mission)
+def _box_claims(pilot: PilotData, most: Sequence[float]) -> Iterator[Claim]:
+    """Claims on the thrusts of a pilot in boxes of states; `most`: the largest of each rotor [N], none if ideal."""
     thrusts, sizes = commanded_thrusts(pilot.parameters, pilot.memory), np.repeat([*BOX.values()], 3)
-    most = np.array([q.thrust_limit for q in mission.vehicle.quadrotors for _ in range(4)])
 
     def within(half: Array) -> bool:
         low, high = bounds(thrusts, *box_of(half))
@@ -192,7 +189,7 @@ def _box_claims(mission: Mission) -> Iterator[Claim]:
 
     whole = tolerated(lambda scale: finite(scale * sizes), LARGEST_BOX, BOX_BISECTIONS)
     yield Claim("finite thrusts", "all", whole * BOX["angles"], "rad", text=f"within {_box_text(whole)}, no NaN")
-    if mission.actuators.model != "rotors":
+    if not most:
         return
     whole = tolerated(lambda scale: within(scale * sizes), LARGEST_BOX, BOX_BISECTIONS)
     yield Claim("thrusts within limits", "all", whole * BOX["angles"], "rad", text=f"within {_box_text(whole)}")
@@ -241,7 +238,9 @@ def nonlinear_tier(mission: Mission, *, fly: bool = False) -> Tier:
     """
     claims, reasons = list[Claim](), list[str]()
     try:
-        claims += _box_claims(mission)
+        real = mission.actuators.model == "rotors"
+        most = [q.thrust_limit for q in mission.vehicle.quadrotors for _ in range(4 * real)]
+        claims += _box_claims(pilot_at_start(mission), most)
     except InputError as error:
         reasons.append(str(error))
     except (TypeError, AttributeError) as error:
@@ -261,7 +260,8 @@ def nonlinear_tier(mission: Mission, *, fly: bool = False) -> Tier:
         claims += _sector_claims(loop, priorities)
         if AXES[0] in loop.names:
             axes = rotor_axes(mission.vehicle, allocation.weights)
-            claims += _offset_claims(mission, OffsetBounds(loop, priorities, axes), fly)
+            offsets, flights = OffsetBounds(loop, priorities, axes), OffsetFlights(mission) if fly else None
+            claims += _offset_claims(offsets, flights, f"tandemlift certify {mission.mission.name} --fly")
     except InputError as error:
         reasons.append(str(error))
     return Tier("nonlinear", "Nonlinear, local", ASSUMED, tuple(claims), reason="; ".join(reasons))

@@ -8,7 +8,8 @@ again, and written as a mission that flies to oscillation.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -31,7 +32,7 @@ from tandemlift.analysis.robustness.uncertainty import (
     uncertain_tables,
 )
 from tandemlift.core.errors import InputError
-from tandemlift.missions import Mission, built_in, check, format_toml, load_mission, tables_of
+from tandemlift.missions import HoverFacts, Mission, built_in, check, format_toml, load_mission, tables_of
 
 NAME, TITLE = "structured", "Structured: all parameters at once"
 FARTHEST = 4.0  # the largest deviation of a parameter alone, relative
@@ -40,6 +41,9 @@ CONFIRMED = 1.1  # times a limit and by it, where the mission is linearized agai
 NEARER = 0.85  # of the factor that is found: the search of the linearized mission begins there
 BEYOND = 1.1  # times the factor at which the model oscillates, of the mission that is flown
 FLOWN = 20.0  # s, of its hover
+
+Growth = Callable[[Values], tuple[float, float]]
+"""`growing` of a mission."""
 
 
 class Worst(NamedTuple):
@@ -66,9 +70,9 @@ def structured_tier(mission: Mission, box: Mapping[str, float] = DEFAULT_BOX) ->
     Raises:
         InputError: a parameter is unknown or its width not allowed, there are too many, or scipy is not installed.
     """
-    widths = parameters_of(mission, box)
-    said = assumptions(mission, box, widths)
-    share = mission.hover.share
+    hover, step, growth = mission.hover, mission.mission.step, partial(growing, mission)
+    widths = parameters_of(hover, box)
+    said, share = assumptions(hover, box, widths), hover.share
     if share >= 1.0:
         reason = f"the hover saturates: its most loaded rotor needs {100.0 * share:.3g} % of its largest thrust"
         return Tier(NAME, TITLE, said, reason=reason)
@@ -79,18 +83,18 @@ def structured_tier(mission: Mission, box: Mapping[str, float] = DEFAULT_BOX) ->
         deviations = DeviatingLoop(family_at(hovers, hovers.w), widths)
     except InputError as error:
         return Tier(NAME, TITLE, said, reason=f"there is no linear model: {error}")
-    if growing(mission, {})[0] > ON_CIRCLE:
+    if growth({})[0] > ON_CIRCLE:
         return Tier(NAME, TITLE, said, reason="the hover is not stable with all parameters as they are")
     most = largest_factor(widths)
     factor, signs = found_factor(deviations, most)
     found = deviations.along(signs, factor)
     frequency = deviations.frequency(found) if found else math.nan
     proven, w, bounds = proven_factor(hovers, deviations, frequency)
-    worst = worst_of(mission, deviations, (factor, signs), most)
+    worst = worst_of(growth, step, deviations, (factor, signs), most)
     curves, files = {"frequency": w, "upper_bound": bounds, "widths": widths}, dict[str, str]()
     claims = [*factors_of(proven, Worst(factor, found, frequency), most)]
     if worst is not None:
-        beyond = within_steps({name: BEYOND * p for name, p in worst.values.items()}, mission.mission.step)
+        beyond = within_steps({name: BEYOND * p for name, p in worst.values.items()}, step)
         text, command = f"the mission linearized with {words(worst.values)} oscillates", ""
         try:
             files[f"{mission.mission.name}-worst.toml"] = worst_mission(mission, beyond, worst)
@@ -99,11 +103,13 @@ def structured_tier(mission: Mission, box: Mapping[str, float] = DEFAULT_BOX) ->
             text = f"{text}, but cannot be flown: {error}"
         claims.append(Claim("factor to fly", "box", worst.factor, "box", None, text, worst.frequency, command))
         curves |= {"worst": worst.values, "flown": beyond}
-    claims += [alone(mission, deviations, name) for name in widths if name in UNITS]
+    claims += [alone(growth, deviations, name) for name in widths if name in UNITS]
     return Tier(NAME, TITLE, said, tuple(claims), curves, files)
 
 
-def worst_of(mission: Mission, deviations: DeviatingLoop, found: tuple[float, Values], most: float) -> Worst | None:
+def worst_of(
+    growth: Growth, step: float, deviations: DeviatingLoop, found: tuple[float, Values], most: float
+) -> Worst | None:
     """The parameters in the smallest box at which the mission, linearized there, oscillates.
 
     `found`: the factor at which the model does, and the direction. None if there are none up to a factor `most`.
@@ -111,12 +117,11 @@ def worst_of(mission: Mission, deviations: DeviatingLoop, found: tuple[float, Va
     factor, signs = found
     if math.isinf(factor):
         return None
-    step = mission.mission.step
 
     def there(factor: float) -> Worst:
         values = within_steps(deviations.along(signs, factor), step)
-        growth, frequency = growing(mission, values)
-        return Worst(factor if growth > ON_CIRCLE else math.inf, values, frequency or deviations.frequency(values))
+        rate, frequency = growth(values)
+        return Worst(factor if rate > ON_CIRCLE else math.inf, values, frequency or deviations.frequency(values))
 
     low, worst = NEARER * factor, there(factor)
     while math.isinf(worst.factor):
@@ -180,7 +185,7 @@ def factors_of(proven: float, found: Worst, most: float) -> Iterator[Claim]:
         yield Claim("gap", "box", found.factor / proven, "1", None, text)
 
 
-def alone(mission: Mission, deviations: DeviatingLoop, name: str) -> Claim:
+def alone(growth: Growth, deviations: DeviatingLoop, name: str) -> Claim:
     """The nearest deviation of one parameter at which the loop oscillates, as the mission linearized there confirms."""
     unit, width = UNITS[name], deviations.widths[name]
     ends = {1.0: (LONGEST if name == "delay" else FARTHEST) / width}
@@ -193,7 +198,7 @@ def alone(mission: Mission, deviations: DeviatingLoop, name: str) -> Claim:
     values = deviations.along({name: sign}, factors[sign])
     frequency = deviations.frequency(values)
     text = f"with {words(values)} alone, the model oscillates at {frequency:.3g} rad/s"
-    sides = [growing(mission, {name: side * values[name]})[0] > ON_CIRCLE for side in (1.0 / CONFIRMED, CONFIRMED)]
+    sides = [growth({name: side * values[name]})[0] > ON_CIRCLE for side in (1.0 / CONFIRMED, CONFIRMED)]
     if sides == [False, True]:
         return Claim("limit alone", name, values[name], unit, None, text, frequency)
     return Claim("limit alone", name, None, unit, None, f"{text}; the mission linearized about there does not agree")
@@ -208,7 +213,7 @@ def words(values: Values) -> str:
     )
 
 
-def assumptions(mission: Mission, box: Mapping[str, float], widths: Mapping[str, float]) -> tuple[str, ...]:
+def assumptions(hover: HoverFacts, box: Mapping[str, float], widths: Mapping[str, float]) -> tuple[str, ...]:
     """The assumptions of the tier, a sentence each."""
     said = [
         "The loop is the linear model of a calm hover, sampled, without noise, wind, ground effect and thrust limits.",
@@ -223,9 +228,9 @@ def assumptions(mission: Mission, box: Mapping[str, float], widths: Mapping[str,
             "What mass and thrust change by another hover comes from models at three values of each, and both together "
             "from either alone."
         )
-    J = mission.hover.vehicle.real_inertia(mission.plant)
+    J = hover.vehicle.real_inertia(hover.plant)
     if np.abs(J - np.diag(np.diag(J))).max() > 1e-6 * J.max() and set(INERTIAS) & set(widths):
         said.append("Products of inertia stay as they are, while an inertia deviates.")
-    if mission.actuators.model != "rotors":
+    if hover.actuators.model != "rotors":
         said.append('actuators.model = "ideal": there are no lag, delay and rotors that could deviate.')
     return tuple(said)

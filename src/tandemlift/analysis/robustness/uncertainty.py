@@ -28,7 +28,7 @@ from tandemlift.analysis.linearization.loop_margins import (
 from tandemlift.analysis.robustness.structured_singular_value import Complex
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.types import Array
-from tandemlift.missions import Mission, check, tables_of
+from tandemlift.missions import HoverFacts, Mission, check, tables_of
 
 INERTIAS = ("inertia_x", "inertia_y", "inertia_z")
 UNITS = {"mass": "1", **dict.fromkeys(INERTIAS, "1"), "thrust": "1", "lag": "1", "delay": "s"}
@@ -59,13 +59,13 @@ class Span(NamedTuple):
     half: float
 
 
-def parameters_of(mission: Mission, box: Mapping[str, float]) -> dict[str, float]:
+def parameters_of(hover: HoverFacts, box: Mapping[str, float]) -> dict[str, float]:
     """The half width of each parameter that has an effect, of "rotors" for each rotor.
 
     Raises:
         InputError: a parameter is unknown, a width is not allowed, or there are more than ten beside the rotors.
     """
-    rotors = [f"rotor.{i + 1}" for i in range(4 * len(mission.vehicle.quadrotors))]
+    rotors = [f"rotor.{i + 1}" for i in range(hover.vehicle.rotor_count)]
     for name, width in box.items():
         if name not in {*UNITS, *rotors, "rotors"}:
             raise unknown("uncertain parameter", name, [*UNITS, "rotors", *rotors])
@@ -79,8 +79,8 @@ def parameters_of(mission: Mission, box: Mapping[str, float]) -> dict[str, float
             f"{len(named)} uncertain parameters: must be at most {MOST} beside rotors, or the search for the worst "
             f"takes some {minutes:.2g} min; leave out {', '.join(named[MOST:])}"
         )
-    without = set() if mission.hover.lag else {"lag"}
-    if mission.actuators.model != "rotors":
+    without = set() if hover.lag else {"lag"}
+    if hover.actuators.model != "rotors":
         rotors, without = [], {"thrust", "lag", "delay"}
     own = {name: box.get(name, box.get("rotors", 0.0)) for name in rotors}
     return {n: box[n] for n in UNITS if n in box and n not in without} | {n: x for n, x in own.items() if x}
@@ -187,19 +187,21 @@ class Hovers(NamedTuple):
     """Models of a mission's hover with ideal rotors.
 
     Attributes:
-        mission: the mission.
+        hover: the vehicle and its rotors.
+        step: of the mission [s].
         model: as it is.
         off: of "mass" and "thrust", two deviations each with their models.
     """
 
-    mission: Mission
+    hover: HoverFacts
+    step: float
     model: LinearModel
     off: dict[str, tuple[tuple[float, LinearModel], ...]]
 
     @property
     def w(self) -> Array:
         """Frequencies of its loop [rad/s]."""
-        share = 1.0 if self.model.step == self.mission.mission.step else SLOWER
+        share = 1.0 if self.model.step == self.step else SLOWER
         return np.geomspace(LOWEST, share * math.pi / self.model.step, POINTS)
 
 
@@ -212,7 +214,7 @@ def hovers_of(mission: Mission, widths: Mapping[str, float]) -> Hovers:
     off = {"mass": (-1.0, 1.0), "thrust": (-1.0, 1.0)}
     at = {name: [end * widths[name] for end in ends] for name, ends in off.items() if name in widths}
     models = {name: tuple((p, calm_model(mission, {name: p}, real=False)) for p in ps) for name, ps in at.items()}
-    return Hovers(mission, calm_model(mission, {}, real=False), models)
+    return Hovers(mission.hover, mission.mission.step, calm_model(mission, {}, real=False), models)
 
 
 def family_at(hovers: Hovers, w: Array) -> Family:
@@ -221,14 +223,15 @@ def family_at(hovers: Hovers, w: Array) -> Family:
     Raises:
         InputError: a hover is not calm.
     """
-    mission, trims = hovers.mission, dict[str, Trim]()
-    H = port_response(mission, hovers.model, w)
+    hover, trims = hovers.hover, dict[str, Trim]()
+    H = port_response(hover, hovers.step, hovers.model, w)
     for name, ((p, one), (q, other)) in hovers.off.items():
         gains = (1.0 + p, 1.0 + q) if name == "thrust" else (1.0, 1.0)
-        off = [unit_gain(port_response(mission, m, w), g) - H for m, g in zip((one, other), gains, strict=True)]
+        models = zip((one, other), gains, strict=True)
+        off = [unit_gain(port_response(hover, hovers.step, m, w), g) - H for m, g in models]
         trims[name] = rational(off[0], off[1], p, q)
-    delay, lag = rotor_delay_and_lag(mission.hover)
-    return Family(w, H, trims, mission.hover.vehicle.allocation(mission.allocation.weights), lag, delay)
+    delay, lag = rotor_delay_and_lag(hover)
+    return Family(w, H, trims, hover.vehicle.allocation(hover.allocation.weights), lag, delay)
 
 
 def unit_gain(H: Complex, gain: float) -> Complex:
@@ -239,8 +242,8 @@ def unit_gain(H: Complex, gain: float) -> Complex:
     return np.asarray(scaled @ np.linalg.inv(np.eye(H.shape[2]) + added))
 
 
-def port_response(mission: Mission, model: LinearModel, w: Array) -> Complex:
-    """H of `Family`, of a linear model of a mission's hover with ideal rotors.
+def port_response(hover: HoverFacts, step: float, model: LinearModel, w: Array) -> Complex:
+    """H of `Family`, of a linear model of a hover with ideal rotors, in a mission with steps of T = `step` [s].
 
     Inputs of a model are held over its sample time h. A rotor's thrust is held over a step, the moment of an inertia is
     not; and a rate at the samples tells the mean acceleration between them.
@@ -250,15 +253,15 @@ def port_response(mission: Mission, model: LinearModel, w: Array) -> Complex:
     """
     if not is_calm(model):
         raise InputError("the hover does not settle even with rotors without delay and lag")
-    vehicle, few = mission.hover.vehicle, model.connected()
-    n, J, T, h, s = vehicle.rotor_count, vehicle.real_inertia(mission.plant), mission.mission.step, model.step, 1j * w
+    vehicle, few = hover.vehicle, model.connected()
+    n, J, T, h, s = vehicle.rotor_count, vehicle.real_inertia(hover.plant), step, model.step, 1j * w
     R = frequency_response(few, w / (2.0 * math.pi)) - np.eye(*few.D.shape) * (np.arange(len(few.D)) < n)[:, None]
     sampled = s * h / -np.expm1(-s * h)
     R[:, :, :n] *= (sampled * -np.expm1(-s * T) / (s * T))[:, None, None]
     R[:, :, n:] *= sampled[:, None, None]
     turning = (s * np.sinc(w * h / (2.0 * math.pi)) ** 2)[:, None, None] * (J @ R[:, n:])
     out = np.concatenate([vehicle.effect @ R[:, :n], turning], axis=1)
-    return np.concatenate([out[:, :, :n] @ vehicle.allocation(mission.allocation.weights), out], axis=2)
+    return np.concatenate([out[:, :, :n] @ vehicle.allocation(hover.allocation.weights), out], axis=2)
 
 
 def rational(off_low: Complex, off_high: Complex, low: float, high: float) -> Trim:

@@ -35,21 +35,6 @@ def probability_bound(count: int, flights: int) -> float:
     return upper_bound(count, flights)
 
 
-def study_of(mission: Mission, file: Path, flights: int) -> dict[str, Any]:
-    """The tables of the study of a mission that is in a file."""
-    uniform = {"distribution": "uniform"}
-    draw: dict[str, Any] = {
-        "plant.mass_scale": {**uniform, "low": 1.0 - MASS, "high": 1.0 + MASS},
-        "plant.inertia_scale": {**uniform, "low": 1.0 - INERTIA, "high": 1.0 + INERTIA, "count": 3},
-    }
-    if mission.actuators.model == "rotors":
-        delay = mission.actuators.delay
-        draw["actuators.delay"] = {**uniform, "low": delay, "high": delay + DELAY}
-    persons = {"persons": "random"} if mission.person.model in LEADS else {}
-    about = {"name": f"{mission.mission.name}-certificate", "missions": [str(file)], "draws": flights, **persons}
-    return {"study": about, "draw": draw, "keep": {"metrics": ["outcome", "findings"]}}
-
-
 def random_flights(mission: Mission, folder: Path, flights: int) -> list[RandomFlight]:
     """Fly a mission with parameters drawn at random; what the folder already holds is not flown again.
 
@@ -63,7 +48,17 @@ def random_flights(mission: Mission, folder: Path, flights: int) -> list[RandomF
     """
     file = folder.parent / f"{mission.mission.name}.toml"
     write_file(file, format_toml(tables_of(mission)))
-    plan = load_plan(study_of(mission, file, flights))
+    uniform = {"distribution": "uniform"}
+    draw: dict[str, Any] = {
+        "plant.mass_scale": {**uniform, "low": 1.0 - MASS, "high": 1.0 + MASS},
+        "plant.inertia_scale": {**uniform, "low": 1.0 - INERTIA, "high": 1.0 + INERTIA, "count": 3},
+    }
+    if mission.actuators.model == "rotors":
+        delay = mission.actuators.delay
+        draw["actuators.delay"] = {**uniform, "low": delay, "high": delay + DELAY}
+    persons = {"persons": "random"} if mission.person.model in LEADS else {}
+    about = {"name": f"{mission.mission.name}-certificate", "missions": [str(file)], "draws": flights, **persons}
+    plan = load_plan({"study": about, "draw": draw, "keep": {"metrics": ["outcome", "findings"]}})
     store = open_folder(plan, folder)
     fly_study(plan, store)
     from pyarrow import parquet  # which the folder needs

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
@@ -22,7 +22,7 @@ from tandemlift.core.errors import InputError, extra, unknown
 from tandemlift.core.files import DATA, atomic_write
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Progress
-from tandemlift.missions import Mission, MissionLike, mission_of
+from tandemlift.missions import MissionLike, mission_of
 from tandemlift.pictures.drawing.style import save
 from tandemlift.pictures.report.page import shown_figures, write_page
 from tandemlift.pictures.report.paper_report import check_typesetting, typeset
@@ -73,36 +73,24 @@ def certify(
     with extra("certify", "a certificate"):
         from threadpoolctl import threadpool_limits
     # many small matrices: threads of BLAS would only wait for each other
-    with threadpool_limits(1), progress_or_own(f"{mission.mission.name}, certified", progress, "tiers") as shown:
+    with (
+        threadpool_limits(1),
+        tempfile.TemporaryDirectory() as aside,
+        progress_or_own(f"{mission.mission.name}, certified", progress, "tiers") as shown,
+    ):
+        study = Path(aside) / "study" if folder is None else Path(folder)
+        forms: dict[str, Callable[[], Tier]] = {
+            "linear": lambda: linear_tier(mission),
+            "structured": lambda: structured_tier(mission, box or DEFAULT_BOX),
+            "person": lambda: person_tier(mission, arms, fly=fly),
+            "nonlinear": lambda: nonlinear_tier(mission, fly=fly),
+            "statistics": lambda: statistics_tier(mission, study, flights),
+        }
         for done, name in enumerate(chosen, 1):
-            found.append(with_limits(_tier(name, mission, arms, box, flights, folder, fly), mission, fly))
+            found.append(with_limits(forms[name](), mission, fly))
             if shown:
                 shown(done, len(chosen))
     return Certificate(mission.mission.name, tuple(found), _versions())
-
-
-def _tier(
-    name: str,
-    mission: Mission,
-    arms: ArmBox,
-    box: Mapping[str, float] | None,
-    flights: int,
-    folder: str | Path | None,
-    fly: bool,
-) -> Tier:
-    """One tier of a mission."""
-    if name == "linear":
-        return linear_tier(mission)
-    if name == "structured":
-        return structured_tier(mission, box or DEFAULT_BOX)
-    if name == "person":
-        return person_tier(mission, arms, fly=fly)
-    if name == "nonlinear":
-        return nonlinear_tier(mission, fly=fly)
-    if folder is not None:
-        return statistics_tier(mission, Path(folder), flights)
-    with tempfile.TemporaryDirectory() as aside:
-        return statistics_tier(mission, Path(aside) / "study", flights)
 
 
 def _versions() -> dict[str, str]:
