@@ -77,7 +77,7 @@ def test_the_excited_flight_keeps_its_limits_in_both_engines(design):
         flight = tl.fly(design.mission, engine=engine)
         assert flight.outcome == "landed"
         assert not flight.findings
-        for name, (value, limit) in used_of(design.mission, flight, limits).items():
+        for name, (value, limit) in used_of(flight, limits).items():
             assert value < limit, (engine, name)
 
 
@@ -174,7 +174,9 @@ def test_the_information_of_the_lines_is_that_of_differences_of_flights(design):
             continue
         dy, du = (a - b for a, b in zip(phasors(flown(p), f, steady), (y, u), strict=True))
         slopes.append((dy - (G @ du[:, :, None])[:, :, 0]) / (1e-2 if p.name == "lag of rotors" else 1e-3))
-    information = 0.5 * steady * np.einsum("ifc,jfc,c->ij", np.conj(slopes), slopes, densities(m)).real
+    information = (
+        0.5 * steady * np.einsum("ifc,jfc,c->ij", np.conj(slopes), slopes, densities(m.sensors, m.mission.step)).real
+    )
     plain = load_mission("iris")
     rows, expected = best_lines(plain, steady, limits_of(plain, ROOM))
     lowered = lines[0].amplitude / rows[0]["amplitude"]  # until the flight kept its limits

@@ -164,7 +164,8 @@ def test_biases_that_walk_within_a_window_widen_the_intervals(log):
     mission = load_mission(START, TRUTH | {f"sensors.{name}": value for name, value in drifts.items()})
     w, s = windows_of(log.between(BEGIN, PUSH - 2.0), mission), mission.sensors
     unknowns = unknowns_of(mission.vehicle, mission.actuators.delay, ["vehicle.drag.force"])
-    predictor, priors = Predictor(w, unknowns, mission), sensor_priors(mission, frozenset(w.samples))
+    predictor, joint_count = Predictor(w, unknowns, mission), len(mission.vehicle.quadrotors)
+    priors = sensor_priors(s, joint_count, frozenset(w.samples))
     search = VehicleSearch([predictor], unknowns, priors)
     own, joints, motion = (s.accelerometer, s.gyroscope), s.joints, s.motion
     sizes = (*[k.noise for k in own], joints.force_noise, joints.torque_noise)

@@ -139,7 +139,7 @@ def excite(
         with without_flight_warnings():
             made = check(tables, tables["mission"]["name"], quiet=True)
             flight = fly(check(tables | {"mission": tables["mission"] | fine}, made.mission.name, quiet=True))
-        used = used_of(made, flight, limits)
+        used = used_of(flight, limits)
         beyond = [f"{key} {value:.3g} of {limit:.3g}" for key, (value, limit) in used.items() if value > limit]
         beyond += [finding.kind for finding in flight.findings]
         if not beyond:
@@ -179,11 +179,11 @@ def push_rows(quadrotors: Iterable[Sequence[float]], begin: float, force: float)
 
 def best_lines(mission: Mission, steady: float, limits: dict[str, float]) -> tuple[list[dict[str, Any]], Array]:
     """(The lines of thrust, roll, pitch and yaw, their information (P × P) within a time [s])."""
-    places = line_frequencies(steady)
-    hover = excited_hover(mission, places.ravel())
-    most = largest_amplitudes(hover, mission, limits).reshape(places.shape)
-    axis = np.repeat(np.arange(len(AXES)), LINES)
-    each = steady * hover.information[np.arange(len(axis)), axis].reshape(*places.shape, *hover.information.shape[2:])
+    places, hover = line_frequencies(steady), mission.hover
+    excited, mixing = excited_hover(mission, places.ravel()), hover.vehicle.allocation(hover.allocation.weights)
+    most = largest_amplitudes(excited, mixing, hover.thrusts.ravel(), limits).reshape(places.shape)
+    axis, whole = np.repeat(np.arange(len(AXES)), LINES), excited.information
+    each = steady * whole[np.arange(len(axis)), axis].reshape(*places.shape, *whole.shape[2:])
     amplitudes = most * np.sqrt(best_shares(each * most[..., None, None] ** 2))
     amplitudes *= amplitudes > SLIGHT * amplitudes.max(axis=1, keepdims=True)
     rows = [row for name, f, A in zip(AXES, places, amplitudes, strict=True) for row in axis_lines(name, f, A)]
@@ -207,14 +207,15 @@ def limits_of(mission: Mission, room: Sequence[float]) -> dict[str, float]:
     }
 
 
-def largest_amplitudes(hover: ExcitedHover, mission: Mission, limits: dict[str, float]) -> Array:
-    """The largest amplitudes of lines (4 · LINES) [N, N m] by their axis' share of each limit, also without control."""
+def largest_amplitudes(excited: ExcitedHover, mixing: Array, rest: Array, limits: dict[str, float]) -> Array:
+    """The largest amplitudes of lines (4 · LINES) [N, N m] by their axis' share of each limit, also without control.
+
+    `mixing`: thrusts from a wrench (4N × 4); `rest`: thrusts of the hover (4N) [N].
+    """
     axis = np.repeat(np.arange(len(AXES)), LINES)
     at = np.arange(len(axis))
-    motion = np.maximum(np.abs(hover.motion[at, :, axis]), np.abs(hover.free[at, :, axis]))
-    mixing = mission.hover.vehicle.allocation(mission.allocation.weights)[:, axis].T
-    thrusts = np.maximum(np.abs(hover.thrusts[at, :, axis]), np.abs(mixing))
-    rest = mission.hover.thrusts.ravel()
+    motion = np.maximum(np.abs(excited.motion[at, :, axis]), np.abs(excited.free[at, :, axis]))
+    thrusts = np.maximum(np.abs(excited.thrusts[at, :, axis]), np.abs(mixing[:, axis].T))
     left = np.minimum(rest, limits["rotor thrust"] - rest)
     rooms = np.array([limits[f"room along {axis}"] for axis in "xyz"])
     place, velocity, tilts = motion[:, :3], motion[:, 3:6], motion[:, 6:8]
@@ -285,10 +286,10 @@ def excited_tables(mission: Mission, time: float, room: Sequence[float], push: f
     return t
 
 
-def used_of(mission: Mission, flight: Flight, limits: dict[str, float]) -> dict[str, tuple[float, float]]:
+def used_of(flight: Flight, limits: dict[str, float]) -> dict[str, tuple[float, float]]:
     """The largest value until the landing of each limit's quantity, and the limit."""
-    lands = mission.phases.land_start
-    within = (flight.time >= mission.excitation.begin) & (flight.time <= (lands or math.inf))
+    begins, lands = flight.mission["excitation"]["begin"], flight.mission["phases"].get("land_start")
+    within = (flight.time >= begins) & (flight.time <= (lands or math.inf))
     cosines = np.cos(flight["euler"][within, :2]).prod(axis=1)
     values = [
         float(np.arccos(cosines).max()),

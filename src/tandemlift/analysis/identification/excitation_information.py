@@ -22,7 +22,7 @@ from tandemlift.analysis.linearization.linearize import linearize
 from tandemlift.analysis.linearization.loop_margins import NO_KINK, calm_mission, rotors_response
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY, Array
-from tandemlift.missions import Mission, check, tables_of
+from tandemlift.missions import Mission, SensorsTable, check, tables_of
 
 Responses = NDArray[np.complexfloating]  # with the shapes of their docstrings
 Frequencies = NDArray[np.complexfloating]
@@ -86,7 +86,9 @@ def excited_hover(mission: Mission, frequencies: Array) -> ExcitedHover:
     Raises:
         InputError: the mission has no real rotors or no noisy sensors, or its hover has no linear model.
     """
-    weights, hover = densities(mission), mission.hover
+    if mission.actuators.model != "rotors":
+        raise InputError(f'actuators.model = "{mission.actuators.model}": must be "rotors", which are identified')
+    weights, hover = densities(mission.sensors, mission.mission.step), mission.hover
     calm, at = calm_mission(mission, lag=hover.lag)
     mixing = hover.vehicle.allocation(hover.allocation.weights)
     s = 2j * math.pi * frequencies
@@ -134,15 +136,12 @@ def deviating(mission: Mission, parameter: VehicleParameter, by: float) -> Missi
     return check(tables, mission.mission.name, quiet=True)
 
 
-def densities(mission: Mission) -> Array:
+def densities(s: SensorsTable, step: float) -> Array:
     """Samples per second over σ² of the readings: rates, specific force, position, Euler angles (12).
 
     Raises:
-        InputError: there are no real rotors, or no noise.
+        InputError: there is no noise.
     """
-    s, step = mission.sensors, mission.mission.step
-    if mission.actuators.model != "rotors":
-        raise InputError(f'actuators.model = "{mission.actuators.model}": must be "rotors", which are identified')
     if s.model != "simulated":
         raise InputError(f'sensors.model = "{s.model}": must be "simulated": their noise bounds what can be identified')
     inertial, seen = max(s.interval, step), max(s.motion.interval, step)

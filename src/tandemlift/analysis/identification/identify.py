@@ -30,7 +30,7 @@ from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Array, Progress, flat
 from tandemlift.engines.driven_vehicle import whole_vehicle
 from tandemlift.engines.vehicle_unknowns import AXES, DEFAULT, Unknowns, driven_numbers, unknowns_of
-from tandemlift.missions import Mission, MissionLike, mission_of
+from tandemlift.missions import Mission, MissionLike, VehicleTable, mission_of
 from tandemlift.simulation.fly import Flight
 
 HELD_BACK = 0.15  # of the windows
@@ -88,15 +88,15 @@ def identify(
     keys = keys if parameters is None else list(parameters)
     unknowns = unknowns_of(mission.vehicle, mission.actuators.delay, keys, weighed)
     parts = [_split(w, held_back) for w in cut]
-    priors = sensor_priors(mission, frozenset(name for w in cut for name in w.samples))
+    streams = frozenset(name for w in cut for name in w.samples)
+    priors = sensor_priors(mission.sensors, len(mission.vehicle.quadrotors), streams)
     search = VehicleSearch([Predictor(fitted, unknowns, mission) for fitted, _ in parts], unknowns, priors)
     with progress_or_own(f"{mission.mission.name}, identified", progress, "steps") as shown:
         equations, normal = search.run(shown)
     _check_structure(search, cut[0].source)
     found = _judged(search, equations, normal, [last for _, last in parts if last is not None], mission)
     vehicle = Unknowns(driven_numbers(found.mission.vehicle, found.mission.actuators.delay), ())
-    found.details["predicted"] = _predicted(other, vehicle, search, None)
-    found.details["seconds"] = time.perf_counter() - began
+    found.details.update(predicted=_predicted(other, vehicle, search, None), seconds=time.perf_counter() - began)
     return found
 
 
@@ -116,7 +116,9 @@ def _judged(
     white = {name: whiteness(r) for name, r in streams.items()}
     covariance = covariance_of(search, equations, normal, {name: w.factor for name, w in white.items()})
     information = data_information(normal, len(unknowns))
-    found, whole, identified, remarks = _results(search, covariance, mission)
+    found, whole, values = _results(search, covariance, mission.vehicle)
+    with without_flight_warnings():
+        identified, remarks = with_values(mission, values)
     keys = _with_derivatives(lambda x: _values(unknowns, x), search.estimate.q)
     correlations = correlations_of(keys, covariance.covariance)
     remarks += remarks_on(unknowns, correlations, information, white, found, search)
@@ -175,24 +177,22 @@ def _with_derivatives(function: Any, q: Array) -> dict[str, tuple[Array, Array, 
 
 
 def _results(
-    search: VehicleSearch, covariance: Covariance, mission: Mission
-) -> tuple[list[Row], list[Row], Mission, list[str]]:
-    """(Rows of keys, rows of the whole vehicle, the identified mission, what it could not take)."""
+    search: VehicleSearch, covariance: Covariance, table: VehicleTable
+) -> tuple[list[Row], list[Row], dict[str, list[float]]]:
+    """(Rows of keys, rows of the whole vehicle, the values by key of each quadrotor)."""
     unknowns, q = search.unknowns, search.estimate.q
     matrices = covariance.covariance, covariance.bound, np.diag(unknowns.unweighed**2)
 
     def whole(x: Array) -> dict[str, tuple[Array, str]]:
-        return whole_vehicle(mission.vehicle, unknowns.numbers(x).vehicle)
+        return whole_vehicle(table, unknowns.numbers(x).vehicle)
 
     found = list(rows_of(_with_derivatives(lambda x: _values(unknowns, x), q), *matrices))
     changes = dict[str, list[float]]()
     for key, (values, _) in _values(unknowns, q).items():
         kept = np.maximum(values, 0.0) if "drag" in key or "delay" in key else values
-        for i in range(len(mission.vehicle.quadrotors)):
+        for i in range(len(table.quadrotors)):
             changes[key.replace("*", str(i))] = [float(f"{x:.7g}") for x in kept]
-    with without_flight_warnings():
-        identified, failed = with_values(mission, changes)
-    return found, list(rows_of(_with_derivatives(whole, q), *matrices)), identified, failed
+    return found, list(rows_of(_with_derivatives(whole, q), *matrices)), changes
 
 
 def _predicted(

@@ -101,9 +101,19 @@ class Predictor:
     @property
     def models(self) -> Models:
         """The machine code for this geometry; made once in a process."""
-        mission = self.mission
-        geometry = mission.vehicle.model_dump_json(), effect_floor(mission), mission.wind.model_dump_json()
-        return _models.of(geometry, lambda: _compiled(mission, self.unknowns.start))
+        vehicle, floor, wind = self.mission.vehicle, effect_floor(self.mission), self.mission.wind
+
+        def body(p: StepNumbers) -> DrivenBody:
+            return driven_body(vehicle, floor, wind, p.vehicle, p.point, p.step)
+
+        def compiled() -> Models:
+            N = self.joints
+            none = DrivenInputs(each(4 * N)(*(0.0,) * (4 * N)), ZERO, ZERO)
+            of_body = body, driven_step, StepNumbers(self.unknowns.start.vehicle, ZERO, 0.0), AT_REST, none
+            of_rotor = (lambda step: step), rotor_step, 0.0, DrivenRotor(0.0, 0.0, 0.0), 0.0
+            return Models(*[Series(*own, differentiated=d) for own in (of_rotor, of_body) for d in (False, True)])
+
+        return _models.of((vehicle.model_dump_json(), floor, wind.model_dump_json()), compiled)
 
     @property
     def joints(self) -> int:
@@ -210,20 +220,6 @@ class Predictor:
             for name, part in zip(OUTPUTS, parts, strict=True)
             if name in self.windows.samples or name in ALWAYS
         }
-
-
-def _compiled(mission: Mission, start: DrivenNumbers) -> Models:
-    """The machine code of a mission's geometry."""
-    table, N = mission.vehicle, len(mission.vehicle.quadrotors)
-    floor, none = effect_floor(mission), DrivenInputs(each(4 * N)(*(0.0,) * (4 * N)), ZERO, ZERO)
-
-    def body(p: StepNumbers) -> DrivenBody:
-        return driven_body(table, floor, mission.wind, p.vehicle, p.point, p.step)
-
-    of_body = body, driven_step, StepNumbers(start.vehicle, ZERO, 0.0), AT_REST, none
-    of_rotor = (lambda step: step), rotor_step, 0.0, DrivenRotor(0.0, 0.0, 0.0), 0.0
-    made = [Series(*own, differentiated=d) for own in (of_rotor, of_body) for d in (False, True)]
-    return Models(*made)
 
 
 def _start_direction(starts: Array, i: int) -> Array:

@@ -16,7 +16,7 @@ from tandemlift.analysis.identification.windows import Samples
 from tandemlift.analysis.logs.clocks import GROUPS
 from tandemlift.analysis.logs.log import JOINTS, conjugate, quaternion_product
 from tandemlift.core.types import Array
-from tandemlift.missions import Mission
+from tandemlift.missions import SensorsTable
 
 STREAMS = {  # with a bias; the least standard deviations of the priors of bias and of its walk over a second
     "measured_specific_force": ("accelerometer", "", 0.1, 2e-4),
@@ -58,14 +58,13 @@ class SensorPriors:
         return np.array([POINT] * 3 + [TURN] * 3 * self.joints)
 
 
-def sensor_priors(mission: Mission, streams: frozenset[str]) -> SensorPriors:
-    """The priors of a mission's sensors, none narrower than a careful builder could promise."""
-    joints = len(mission.vehicle.quadrotors)
+def sensor_priors(sensors: SensorsTable, joints: int, streams: frozenset[str]) -> SensorPriors:
+    """The priors of the sensors that a log has, none narrower than a careful builder could promise."""
     places, bias, walk = dict[str, slice](), list[float](), list[float]()
     for name, (table, prefix, least, drift) in STREAMS.items():
         if name in streams:
             width = 3 * joints if name in JOINTS else 3
-            own = getattr(mission.sensors, table)
+            own = getattr(sensors, table)
             places[name] = slice(len(bias), len(bias) + width)
             bias += [max(getattr(own, f"{prefix}bias"), least)] * width
             walk += [max(getattr(own, f"{prefix}drift"), drift)] * width

@@ -121,7 +121,7 @@ def check_vehicle(log: Log, mission: Mission) -> None:
     log.require(*MOTION, *sensed, *(PUSH[:1] if mission.pilot.push == "truth" else []))
     if mission.changes_in_flight:
         raise InputError(f"mission {name} changes in flight: leave out [[changes]] and person.recording")
-    check_columns(log, mission)
+    check_columns(log, mission.vehicle, name)
     start = log[MOTION[0]].values[0]
     if np.linalg.norm(start - mission.initial.position) > ELSEWHERE:
         at, other = np.round(start, 3).tolist(), list(mission.initial.position)

@@ -16,7 +16,7 @@ from tandemlift.analysis.logs.checks import check_log
 from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, PUSH, SPEED_COMMANDS, Log, Stream
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY, Array
-from tandemlift.missions import Mission
+from tandemlift.missions import Mission, VehicleTable
 
 Places = NDArray[np.intp]
 Truths = NDArray[np.bool_]
@@ -109,8 +109,8 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
     Raises:
         InputError: a stream is missing, has another number of rotors or joints, or no flight is left.
     """
-    check_columns(log, mission)
-    commands = _speeds(log, mission)
+    check_columns(log, mission.vehicle, mission.mission.name)
+    commands = _speeds(log, mission.vehicle)
     log.require(*IMU, MOTION[0], MOTION[2])
     check_log(log)
     imu = log["measured_specific_force"].time
@@ -135,18 +135,18 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
             cut.pushes[:, place] = np.array([np.interp(amid, log[name].time, v) for v in log[name].values.T]).T
     samples = {name: _samples(cut, log[name]) for name in (*IMU, *MOTION, *JOINTS) if name in log}
     cut = replace(cut, samples=samples)
-    flying = _in_flight(cut, log, mission)
+    flying = _in_flight(cut, log, mission.vehicle)
     if flying.sum() < FEWEST:
         raise InputError(f"{log.source}: flies clear of the floor in {flying.sum()} windows; {FEWEST} are needed")
     return cut.chosen(flying)
 
 
-def _speeds(log: Log, mission: Mission) -> Stream:
-    """The commanded speeds [rad/s]; of thrusts, by the mission's thrust constants."""
+def _speeds(log: Log, vehicle: VehicleTable) -> Stream:
+    """The commanded speeds [rad/s]; of thrusts, by the vehicle's thrust constants."""
     if SPEED_COMMANDS not in log and COMMANDS not in log:
         raise InputError(f"{log.source}: has neither {SPEED_COMMANDS} nor {COMMANDS}; it has {', '.join(log)}")
     name = SPEED_COMMANDS if SPEED_COMMANDS in log else COMMANDS
-    rotors = [q for q in mission.vehicle.quadrotors for _ in range(4)]
+    rotors = [q for q in vehicle.quadrotors for _ in range(4)]
     time, values = log[name]
     if len(time) > 1 and np.ptp(values, axis=0).min() == 0.0:
         rotor = int(np.argmin(np.ptp(values, axis=0)))
@@ -156,12 +156,12 @@ def _speeds(log: Log, mission: Mission) -> Stream:
     return Stream(time, np.clip(values, 0.0, [q.max_speed for q in rotors]))
 
 
-def check_columns(log: Log, mission: Mission) -> None:
+def check_columns(log: Log, vehicle: VehicleTable, name_of_mission: str) -> None:
     """Refuse a log with another number of rotors or joints than a mission's vehicle has."""
-    count = len(mission.vehicle.quadrotors)
+    count = len(vehicle.quadrotors)
     for name, each in ((JOINTS[0], 3), (JOINTS[1], 3), (COMMANDS, 4), (SPEED_COMMANDS, 4)):
         if name in log and (columns := log[name].values.shape[1]) != each * count:
-            must = f"{each} for each of the {count} quadrotors of mission {mission.mission.name}"
+            must = f"{each} for each of the {count} quadrotors of mission {name_of_mission}"
             raise InputError(
                 f"{log.source}: stream {name} has {columns} columns: must be {must}; not this vehicle's log?"
             )
@@ -188,10 +188,10 @@ def _without_spikes(stream: Stream) -> Stream:
     return Stream(stream.time[kept], stream.values[kept])
 
 
-def _in_flight(cut: FlightWindows, log: Log, mission: Mission) -> Truths:
+def _in_flight(cut: FlightWindows, log: Log, vehicle: VehicleTable) -> Truths:
     """Whether each window flies: its rotors carry most of the weight, and it is clear of the floor."""
-    quadrotors = mission.vehicle.quadrotors
-    mass = mission.vehicle.payload.mass + sum(q.mass for q in quadrotors)
+    quadrotors = vehicle.quadrotors
+    mass = vehicle.payload.mass + sum(q.mass for q in quadrotors)
     constants = np.array([q.thrust_constant for q in quadrotors for _ in range(4)])
     time, position = log["measured_position"]
     thrust = np.array([np.interp(time, cut.commands.time, column) for column in cut.commands.values.T]).T ** 2
