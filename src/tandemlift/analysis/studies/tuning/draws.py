@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -37,6 +38,11 @@ class MissionSource:
         self.name, self.controller = name, controller
         self.changes = {key: _plain(value) for key, value in changes.items()}
         self._template = MissionTemplate.read(name, self.changes, controller=controller, quiet=True)
+
+    @cached_property
+    def mission(self) -> Mission:
+        """The mission."""
+        return self.load()
 
     def load(self, *more: Mapping[str, Any]) -> Mission:
         """The mission with more changes.
@@ -133,15 +139,15 @@ def _named(study: Study) -> str:
     return "" if isinstance(study, Mapping) else os.fspath(study)
 
 
-def default_study(mission: Mission, source: MissionSource, count: int, seed: int) -> dict[str, Any]:
+def default_study(source: MissionSource, count: int, seed: int) -> dict[str, Any]:
     """The tables of a study that draws values unknown to the pilot of a mission, except for changed keys.
 
     Args:
-        mission: with its changes.
         source: of the mission.
         count: number of draws.
         seed: of the draws.
     """
+    mission = source.mission
     drawn: dict[str, Any] = {"plant.mass_scale": _factor(MASS), "plant.inertia_scale": {**_factor(INERTIA), "count": 3}}
     if mission.wind.model != "none":
         drawn |= {"wind.velocity": _factor(LOADS), "wind.turbulence": _factor(LOADS)}

@@ -56,7 +56,7 @@ class Tuning(NamedTuple):
     @property
     def name(self) -> str:
         """The name of the mission that was tuned."""
-        return self.task.mission.mission.name
+        return self.task.source.mission.mission.name
 
     @property
     def changes(self) -> dict[str, Any]:
@@ -108,7 +108,7 @@ class Tuning(NamedTuple):
         return {
             "mission": task.source.name,
             "changes": task.source.changes,
-            "controller": task.mission.controller.name,
+            "controller": task.source.mission.controller.name,
             "seed": self.seed,
             "budget": self.budget,
             "aim": task.aim,

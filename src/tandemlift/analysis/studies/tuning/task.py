@@ -23,7 +23,6 @@ from tandemlift.analysis.studies.tuning.goals import Goal, check_goals, scales_o
 from tandemlift.analysis.studies.tuning.parameters import Tunable, Value, changes_at
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
-from tandemlift.missions import Mission
 from tandemlift.simulation.results import SHAPES
 
 Values = tuple[Value, ...]
@@ -35,7 +34,6 @@ class Task(NamedTuple):
 
     Attributes:
         source: of missions.
-        mission: the original.
         parameters: those that are searched.
         goals: metrics to minimize.
         sizes: components of each goal.
@@ -46,7 +44,6 @@ class Task(NamedTuple):
     """
 
     source: MissionSource
-    mission: Mission
     parameters: tuple[Tunable, ...]
     goals: tuple[Goal, ...]
     sizes: tuple[int, ...]

@@ -146,17 +146,16 @@ def _tuned(source: MissionSource, goals: tuple[Goal, ...], how: How, progress: T
     if how.aim not in ("mean", "worst"):
         raise unknown("aim", how.aim, ("mean", "worst"))
     _check_count("--holdout", how.holdout)
-    loaded = source.load()
     asked = [how.parameters] if isinstance(how.parameters, str) else how.parameters
-    parameters = parameters_of(loaded, asked if isinstance(asked, Mapping) else dict.fromkeys(asked), FACTOR)
+    parameters = parameters_of(source.mission, asked if isinstance(asked, Mapping) else dict.fromkeys(asked), FACTOR)
     if isinstance(how.draws, int):
         _check_count("--draws", how.draws)
-    study = default_study(loaded, source, how.draws, how.seed) if isinstance(how.draws, int) else how.draws
-    drawn = DrawSource(study, loaded.mission.name, source.changes)
+    study = default_study(source, how.draws, how.seed) if isinstance(how.draws, int) else how.draws
+    drawn = DrawSource(study, source.mission.mission.name, source.changes)
     compared, unseen = drawn.search_draws(), drawn.other_draws(how.holdout, HOLDOUT_SEED)
     _check_apart(compared, parameters)
     goals = tuple(goal.with_targets(drawn.targets) for goal in goals)
-    task, trial = started(Task(source, loaded, parameters, goals, (), (), how.aim, how.threads, how.strict), compared)
+    task, trial = started(Task(source, parameters, goals, (), (), how.aim, how.threads, how.strict), compared)
     optimiser = EvolutionStrategy(task.parameters, how.seed, FAR_STEP if trial.bad.all() else FIRST_STEP)
     budget = POPULATIONS * optimiser.size if how.budget is None else how.budget
     if budget != 0 and budget < optimiser.size:
