@@ -14,6 +14,7 @@ from tandemlift.codegen.c.source import SourceFile
 from tandemlift.codegen.c.text import wrapped
 from tandemlift.codegen.c_flight import FlightFile
 from tandemlift.codegen.c_pilot import PilotFile
+from tandemlift.codegen.number_facts import facts_of
 from tandemlift.codegen.prepare import PrepareFile
 from tandemlift.core.files import write_file
 from tandemlift.core.types import Array, leaves
@@ -23,7 +24,7 @@ from tandemlift.simulation.fly import fly
 from tandemlift.simulation.pilot_api import INPUT, Pilot, pilot_at_start
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import FlightMemory
-from tandemlift.simulation.preparation.traced_assembly import assembled_by_graph, trace_assembly
+from tandemlift.simulation.preparation.traced_assembly import trace_assembly, with_values
 
 VECTORS = 40  # stored samples of a pilot
 ROWS = 12  # stored samples of a flight
@@ -66,11 +67,13 @@ def source_file(mission: Mission, single: bool = False) -> SourceFile:
 def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
     """The texts of all files but the self-tests, by name."""
     mission = portable_mission(mission)
-    pilot = PilotFile(source_file(mission, single), assembled_by_graph(mission, pilot_at_start))
-    flight = FlightFile(source_file(mission, single), FlightPlan(mission, interactive=True))
-    pilot_prepare = PrepareFile(source_file(mission, single), trace_assembly(mission, pilot_at_start), "pilot")
-    flight_prepare = PrepareFile(source_file(mission, single), trace_assembly(mission), "flight")
-    file = source_file(mission, single)
+    file, of_pilot = source_file(mission, single), trace_assembly(mission, pilot_at_start)
+    of_flight = trace_assembly(mission)
+    pilot = PilotFile(file.anew(), with_values(of_pilot.assembled, of_pilot.graph))
+    flight = FlightFile(file.anew(), FlightPlan(mission, interactive=True))
+    pilot_prepare = PrepareFile(file.anew(), of_pilot, "pilot")
+    flight_prepare = PrepareFile(file.anew(), of_flight, "flight")
+    facts = facts_of(mission, {*of_pilot.keys, *of_flight.keys})
     how = {"PRECISION": "single" if single else "double"}
     how["COMPARED"] = "within 1e-3 of the range of thrusts" if single else "to the last bit"
     return {
@@ -80,9 +83,9 @@ def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
         f"{file.name}_flight.c": flight.source(),
         f"{file.name}_flight.h": flight.header(),
         f"{file.name}_pilot_prepare.c": pilot_prepare.source(),
-        f"{file.name}_pilot_prepare.h": pilot_prepare.header(mission),
+        f"{file.name}_pilot_prepare.h": pilot_prepare.header(facts),
         f"{file.name}_flight_prepare.c": flight_prepare.source(flight.traced_tables),
-        f"{file.name}_flight_prepare.h": flight_prepare.header(mission, flight.traced_tables),
+        f"{file.name}_flight_prepare.h": flight_prepare.header(facts, flight.traced_tables),
         "CMakeLists.txt": file.filled("CMakeLists.txt"),
         "README.md": file.filled("README.md", **how),
     }

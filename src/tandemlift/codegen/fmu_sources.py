@@ -6,9 +6,11 @@ from typing import Any, NamedTuple
 
 from tandemlift.codegen import fmu_variables
 from tandemlift.codegen.c.expressions import number
+from tandemlift.codegen.c.source import SourceFile
 from tandemlift.codegen.c_flight import FlightFile
 from tandemlift.codegen.c_package import source_file
 from tandemlift.codegen.c_pilot import PilotFile
+from tandemlift.codegen.number_facts import facts_of
 from tandemlift.codegen.prepare import PrepareFile, prepared_numbers
 from tandemlift.codegen.vehicle_step import VehicleStep, is_of_vehicle
 from tandemlift.compiler.tracer import symbols
@@ -16,7 +18,7 @@ from tandemlift.core.types import flat, leaves
 from tandemlift.missions import Mission
 from tandemlift.simulation.pilot_api import INPUT, pilot_at_start
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.preparation.traced_assembly import TracedAssembly, assembled_by_graph, trace_assembly
+from tandemlift.simulation.preparation.traced_assembly import TracedAssembly, trace_assembly, with_values
 from tandemlift.simulation.results import channel_names
 
 PARTS = {
@@ -49,24 +51,24 @@ class FmuPart(NamedTuple):
 def pilot_part(mission: Mission) -> FmuPart:
     """The pilot of a mission, which is portable."""
     file, traced = source_file(mission), trace_assembly(mission, pilot_at_start)
-    pilot = PilotFile(file, assembled_by_graph(mission, pilot_at_start))
-    prepare = PrepareFile(source_file(mission), traced, "pilot")
+    pilot, facts = PilotFile(file, with_values(traced.assembled, traced.graph)), facts_of(mission, traced.keys)
+    prepare = PrepareFile(file.anew(), traced, "pilot")
     effective = _effective(traced, [*symbols(traced.graph, traced.assembled), *_conditions(traced)])
     count, start = len(traced.keys), [float(x) for x in flat(INPUT)]
-    found = [*fmu_variables.parameters(mission, traced, effective), *fmu_variables.pilot_inputs(count, start)]
+    found = [*fmu_variables.parameters(traced, facts, effective), *fmu_variables.pilot_inputs(count, start)]
     found.append(fmu_variables.thrust_output(count + len(start), len(pilot.thrusts)))
     code = {"pilot.c": pilot.source(), "pilot.h": pilot.header()}
-    code |= {"pilot_prepare.c": prepare.source(), "pilot_prepare.h": prepare.header(mission)}
+    code |= {"pilot_prepare.c": prepare.source(), "pilot_prepare.h": prepare.header(facts)}
     words = {"STARTS": _numbers(start), "ENDS": "", "PLACES": "", "COPIES": ""}
-    return _part(mission, "pilot", traced, found, code, {"pilot"}, words)
+    return _part(file, mission.mission.duration, "pilot", traced, found, code, words)
 
 
 def flight_part(mission: Mission, part: str) -> FmuPart:
     """The whole flight of a mission, which is portable, or its vehicle: `part` is "flight" or "vehicle"."""
     is_whole, plan, traced = part == "flight", FlightPlan(mission, interactive=True), trace_assembly(mission)
     step: Any = {} if is_whole else {"step": VehicleStep}
-    flight = FlightFile(source_file(mission), plan, **step)
-    prepare = PrepareFile(source_file(mission), traced, "flight")
+    file, facts = source_file(mission), facts_of(mission, traced.keys)
+    flight, prepare = FlightFile(file, plan, **step), PrepareFile(file.anew(), traced, "flight")
     found, spans = prepared_numbers(traced)
     if is_whole:
         found += _conditions(traced)
@@ -76,19 +78,19 @@ def flight_part(mission: Mission, part: str) -> FmuPart:
     count, external = len(traced.keys), plan.given.external
     names = [name for name in channel_names(plan) if is_whole or is_of_vehicle(name)]
     shown, places = fmu_variables.outputs(flight.templates.sample, count + leaves(external), names)
-    variables = [*fmu_variables.parameters(mission, traced, _effective(traced, found))]
+    variables = [*fmu_variables.parameters(traced, facts, _effective(traced, found))]
     variables += [*fmu_variables.caller_inputs(external, count, has_pilot=is_whole), *shown]
     code = {"flight.c": flight.source(), "flight.h": flight.header()}
     code["flight_prepare.c"] = prepare.source(flight.traced_tables)
-    code["flight_prepare.h"] = prepare.header(mission, flight.traced_tables)
-    upper = flight.file.prefix.upper()
+    code["flight_prepare.h"] = prepare.header(facts, flight.traced_tables)
+    upper = file.prefix.upper()
     words = {
         "STARTS": _numbers([0.0] * leaves(external)),
         "PLACES": ", ".join(map(str, places)),
         "COPIES": "\n".join(f"    prepared->inputs.{name} = prepared->{name};" for name, *_ in flight.traced_tables),
         "ENDS": f" || flight->k == {upper}FLIGHT_STEPS" if is_whole else "",
     }
-    return _part(mission, part, traced, variables, code, {"flight"}, words)
+    return _part(file, mission.mission.duration, part, traced, variables, code, words)
 
 
 def _numbers(values: list[float]) -> str:
@@ -106,16 +108,16 @@ def _effective(traced: TracedAssembly, results: list[Any]) -> set[int]:
 
 
 def _part(
-    mission: Mission,
+    file: SourceFile,
+    duration: float,
     part: str,
     traced: TracedAssembly,
     variables: list[fmu_variables.FmuVariable],
     code: dict[str, str],
-    has: set[str],
     words: dict[str, str],
 ) -> FmuPart:
     """The part with the sources of FMI beside its code."""
-    file, kind = source_file(mission), "pilot" if part == "pilot" else "flight"
+    kind = "pilot" if part == "pilot" else "flight"
     count, outs = len(traced.keys), [v for v in variables if v.causality == "output"]
     last = outs[-1]
     sizes = [0] * (last.at + len(last.labels))
@@ -124,7 +126,7 @@ def _part(
     guards = [f'    "{", ".join(traced.keys_of(guard))}",' for guard in traced.guards]
     words |= {
         "TOKEN": "/*@TOKEN@*/",
-        "DOUBLE_STEP": number(mission.mission.step, "double"),
+        "DOUBLE_STEP": number(file.step, "double"),
         "PARAMETERS": str(count),
         "INPUTS": str(outs[0].at - count),
         "OUTPUTS": str(len(sizes) - outs[0].at),
@@ -136,9 +138,8 @@ def _part(
     }
     api = ["fmi2.c", "fmi3.c", "fmu.c", "fmu.h", "fmu_values.c"]  # a library speaks both versions
     texts = {f"{file.prefix}{name}": text for name, text in code.items()}
-    texts |= {f"{file.prefix}{name}": file.filled(name, has, **words) for name in ("checks.h", *api)}
-    table = mission.mission
-    return FmuPart(f"{file.prefix}{part}", PARTS[part], variables, texts, table.step, table.duration)
+    texts |= {f"{file.prefix}{name}": file.filled(name, {kind}, **words) for name in ("checks.h", *api)}
+    return FmuPart(f"{file.prefix}{part}", PARTS[part], variables, texts, file.step, duration)
 
 
 def _lines(sizes: list[int]) -> str:

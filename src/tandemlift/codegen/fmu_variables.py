@@ -12,10 +12,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from tandemlift.codegen.number_facts import CALLER, FIELDS, PUSH, REQUESTS, STATE, STATUS, number_facts
+from tandemlift.codegen.number_facts import CALLER, FIELDS, PUSH, REQUESTS, STATE, STATUS
 from tandemlift.flight.channels import Channel, channel_of
 from tandemlift.flight.data_frames import column_names
-from tandemlift.missions import Mission
 from tandemlift.simulation.caller_values import held_inputs
 from tandemlift.simulation.preparation.traced_assembly import TracedAssembly
 from tandemlift.simulation.results import channel_columns
@@ -55,12 +54,14 @@ class FmuVariable(NamedTuple):
         return f"{self.channel.meaning} ({frame} frame)" if frame and " " not in frame else self.channel.meaning
 
 
-def parameters(mission: Mission, traced: TracedAssembly, effective: set[int]) -> Iterator[FmuVariable]:
+def parameters(
+    traced: TracedAssembly, facts: Mapping[str, dict[str, Any]], effective: set[int]
+) -> Iterator[FmuVariable]:
     """A parameter for each key whose numbers have an effect; a list of numbers is an array.
 
     Args:
-        mission: that of the keys.
         traced: the assembly, whose inputs are the numbers.
+        facts: of `number_facts`, by key.
         effective: which of these have an effect.
     """
     places = [i for i in range(len(traced.keys)) if i in effective]
@@ -71,11 +72,13 @@ def parameters(mission: Mission, traced: TracedAssembly, effective: set[int]) ->
         is_whole = is_list and own == list(range(own[0], own[0] + len(own)))
         for members in [own] if is_whole else [[i] for i in own]:
             labels = tuple(traced.keys[i] for i in members)
-            facts = number_facts(mission, labels[0])
-            channel = Channel(facts.pop("unit"), "", facts.pop("meaning"), len(members))
+            bounds = dict(facts[labels[0]])
+            channel = Channel(bounds.pop("unit"), "", bounds.pop("meaning"), len(members))
             start = tuple(traced.values[i] for i in members)
             at = members[0]
-            yield FmuVariable(name if is_whole else labels[0], "parameter", channel, at, labels, is_whole, start, facts)
+            yield FmuVariable(
+                name if is_whole else labels[0], "parameter", channel, at, labels, is_whole, start, bounds
+            )
 
 
 def _list_of(key: str) -> str:

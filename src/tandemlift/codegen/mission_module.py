@@ -15,7 +15,7 @@ from tandemlift.codegen.c_package import write_c
 from tandemlift.codegen.fmu import VERSIONS, write_fmus
 from tandemlift.codegen.fmu_binaries import HOST
 from tandemlift.codegen.module_text import ValuesFunction, write_flight_loop, write_ramp, write_values_function
-from tandemlift.codegen.number_facts import number_facts
+from tandemlift.codegen.number_facts import facts_of
 from tandemlift.codegen.prepare import write_prepare
 from tandemlift.compiler.machine_code import store
 from tandemlift.compiler.machine_code.code import Written
@@ -198,10 +198,10 @@ def manifest_of(plan: FlightPlan, traced: TracedAssembly, about: dict[str, Any])
             the numbers of its arguments and of its result).
     """
     spans, prepare_work = about["prepared"]
-    hand, start = hand_place(plan), plan.start()
+    hand, start, facts = hand_place(plan), plan.start(), facts_of(plan.mission, traced.keys)
     return {
         "numbers": [
-            {"key": key, "value": number(value), **number_facts(plan.mission, key)}
+            {"key": key, "value": number(value), **facts[key]}
             for key, value in zip(traced.keys, traced.values, strict=True)
         ],
         "fixed": traced.fixed,

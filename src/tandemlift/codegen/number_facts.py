@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import re
 import textwrap
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from pydantic import BaseModel
@@ -65,14 +65,17 @@ FIELDS = {  # of structs that a caller of the C code fills
 BOUNDS = ("minimum", "exclusiveMinimum", "maximum", "exclusiveMaximum")
 
 
-def number_facts(mission: Mission, key: str) -> dict[str, Any]:
-    """The description of a number of a mission: `unit`, `meaning` and bounds by their names in JSON Schema.
+def facts_of(mission: Mission, keys: Iterable[str]) -> dict[str, dict[str, Any]]:
+    """The descriptions of numbers of a mission by key: `unit`, `meaning` and bounds by their names in JSON Schema.
 
     Args:
-        mission: that of the number, which also determines the controller's keys.
-        key: dotted, with the number of a list's entry where there is one.
+        mission: that of the numbers, which also determines the controller's keys.
+        keys: dotted, with the number of a list's entry where there is one.
     """
-    value: Any = mission
+    return {key: _facts(mission, key) for key in keys}
+
+
+def _facts(value: Any, key: str) -> dict[str, Any]:
     for part in key.split("."):
         if isinstance(value, BaseModel):
             field, value = type(value).model_fields[part], getattr(value, part)
@@ -116,9 +119,8 @@ def comment_free(text: str) -> str:
     return text.rstrip(".,").replace("*/", "* /")
 
 
-def key_comment(mission: Mission, key: str) -> str:
+def key_comment(key: str, facts: Mapping[str, Any]) -> str:
     """The comment of a number of a mission: key, unit, meaning and bounds."""
-    facts = number_facts(mission, key)
     signs = {"minimum": "≥", "exclusiveMinimum": ">", "maximum": "≤", "exclusiveMaximum": "<"}
     bounds = [f"{sign} {facts[name]:g}" for name, sign in signs.items() if name in facts]
     unit = f" [{facts['unit']}]" if facts["unit"] else ""

@@ -7,7 +7,7 @@ mission needs code of its own.
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from tandemlift.codegen.c.expressions import number
@@ -18,7 +18,6 @@ from tandemlift.codegen.c.types import Names, leaf_paths
 from tandemlift.codegen.number_facts import key_comment
 from tandemlift.compiler.tracer import LEAVES, Function, Module, Place, Symbol, symbols
 from tandemlift.core.types import rebuilt
-from tandemlift.missions import Mission
 from tandemlift.simulation.loop.external_inputs import ROWS
 from tandemlift.simulation.preparation.assemble import AssembledFlight
 from tandemlift.simulation.preparation.memory import ScratchLayout
@@ -110,12 +109,12 @@ class PrepareFile:
         names = Names()
         self.members = [names.new(key.replace(".", "_")) for key in traced.keys]
 
-    def header(self, mission: Mission, tables: tuple[Any, ...] = ()) -> str:
-        """The text of the header; `mission`: of the numbers; `tables`: name, type and rows of those of a flight."""
+    def header(self, facts: Mapping[str, dict[str, Any]], tables: tuple[Any, ...] = ()) -> str:
+        """The text of the header; `facts`: of the numbers, by key; `tables`: name, type and rows of a flight's."""
         guards = [", ".join(self.traced.keys_of(g)) for g in self.traced.guards]
         lines = list[str]()
         for name, key in zip(self.members, self.traced.keys, strict=True):
-            lines += [*comment(textwrap.wrap(key_comment(mission, key), WIDTH)).splitlines(), f"double {name};"]
+            lines += [*comment(textwrap.wrap(key_comment(key, facts[key]), WIDTH)).splitlines(), f"double {name};"]
         numbered = "\n * ".join(f"{i + 1}: one of {keys}" for i, keys in enumerate(guards)) or "there is none"
         rows = [f"    {self.file.prefix}{kind} {name}[{count}];" for name, kind, count in tables]
         words = {"MEMBERS": textwrap.indent("\n".join(lines), "    "), "GUARDS": numbered, "TABLES": "\n".join(rows)}

@@ -139,6 +139,10 @@ class SourceFile:
         self.unit = Unit("float" if single else "double")
         self.step = step
 
+    def anew(self) -> SourceFile:
+        """Another file of the mission, with an empty unit."""
+        return SourceFile(self.mission, self.real == "float", self.step, self.digest)
+
     @property
     def real(self) -> str:
         """The type of its numbers."""
