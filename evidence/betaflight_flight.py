@@ -14,7 +14,7 @@ from two_flight_controllers import HEIGHT, own_moments
 
 import tandemlift as tl
 from tandemlift.apps.clients.cascade import MAX_TILT, RATE_INTEGRAL, Demand, OuterLoops, gains_for, wrapped
-from tandemlift.apps.clients.flight import quadrotors_of, rotor_lag
+from tandemlift.apps.clients.flight import quadrotors_of
 from tandemlift.apps.clients.one_body import LoopGroup
 from tandemlift.apps.clients.quadrotors import INNER_EVERY, OUTER_EVERY
 from tandemlift.apps.clients.setpoints import EstimateError, PositionSetpoint, QuadrotorState, mean_attitude
@@ -37,7 +37,7 @@ class Gains(NamedTuple):
         """Those of the loops of `tandemlift crazyflie`, to the next integers."""
         vehicle = tl.Vehicle.from_settings(mission.vehicle)
         most = vehicle.quadrotors[0].thrust_limit
-        loops = LoopGroup(vehicle, gains_for(rotor_lag(mission) + INNER_EVERY), range(1), most).inner
+        loops = LoopGroup(vehicle, gains_for(mission.hover.response_time + INNER_EVERY), range(1), most).inner
         inertia = vehicle.inertia.diagonal() / vehicle.count
         stiffness = np.radians(loops.rate_gains) * inertia / moment_per_signal(vehicle)  # signal by degree per second
         i = RATE_INTEGRAL * stiffness / I_SCALE
@@ -149,7 +149,7 @@ class Pilots:
         vehicle, self._each, self._flight = flight.vehicle, each, flight
         most = vehicle.quadrotors[0].thrust_limit
         self._rotor_limit, self._weight = most, vehicle.weight
-        gains = gains_for(rotor_lag(mission) + INNER_EVERY)
+        gains = gains_for(mission.hover.response_time + INNER_EVERY)
         self._heading = LoopGroup(vehicle, gains, range(1), most).inner.attitude_gains[2]
         self._targets = vehicle.lever_arms + np.array([0.0, 0.0, HEIGHT])
         if not each:

@@ -16,7 +16,7 @@ from tandemlift.apps.cli.console import echo, exit_now, progress_bar
 from tandemlift.apps.cli.live import DEFAULT, OUT, no_browser_option, port_option
 from tandemlift.apps.cli.run import write_results
 from tandemlift.apps.export.results import results_folder
-from tandemlift.core.errors import InputError
+from tandemlift.core.errors import InputError, extra
 
 ROS_ARGUMENTS = "--ros-args"
 
@@ -205,7 +205,8 @@ def mavlink(mission: str, udp_port: int, **options: Any) -> None:
       tandemlift mavlink
       tandemlift mavlink two-x500 --set wind.velocity=[1,0,0]
     """
-    from tandemlift.apps.clients.mavlink.vehicles import MavlinkVehicles
+    with extra("mavlink", "MAVLink"):
+        from tandemlift.apps.clients.mavlink.vehicles import MavlinkVehicles
 
     _fly_by_clients(mission, partial(MavlinkVehicles, port=udp_port), **options)
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift import Mission, Simulation, Vehicle
+from tandemlift import Mission, Simulation
 from tandemlift.apps.clients.quadrotors import CRAZYFLIE, Control, FailSafe, Quadrotors
 from tandemlift.apps.clients.setpoints import EstimateError
 from tandemlift.apps.live.session.frames import channel_columns
@@ -20,19 +20,12 @@ BODY = ("position", "velocity", "attitude", "rates")  # channels of a state (13,
 BEFORE_THRUSTS, AFTER_OVERRIDE = 6, 4  # numbers of a `CallerInput`: force and point; a velocity and whether it counts
 
 
-def rotor_lag(mission: Mission) -> float:
-    """The time after which rotors follow a command [s]: delay and the slower lag; 0 for ideal ones."""
-    if mission.actuators.model == "ideal":
-        return 0.0
-    return mission.actuators.delay + max(max(q.lag_up, q.lag_down) for q in mission.vehicle.quadrotors)
-
-
 def quadrotors_of(
     mission: Mission, control: Control = "shared", fail_safe: FailSafe = CRAZYFLIE, errors: Sequence[EstimateError] = ()
 ) -> Quadrotors:
     """The quadrotors of a mission's vehicle."""
-    vehicle = Vehicle.from_settings(mission.vehicle)
-    return Quadrotors(vehicle, rotor_lag(mission), mission.mission.step, control, fail_safe, errors)
+    hover = mission.hover
+    return Quadrotors(hover.vehicle, hover.response_time, mission.mission.step, control, fail_safe, errors)
 
 
 class SteppedFlight:

@@ -18,8 +18,6 @@ from tandemlift import InputError, Vehicle
 from tandemlift.apps.clients import setpoints as sp
 from tandemlift.apps.clients.cascade import GRAVITY, Demand, OuterLoops, gains_for
 from tandemlift.apps.clients.one_body import LoopGroup, tilt, together, vector
-from tandemlift.core.vector import Quat
-from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
 Control = Literal["own", "shared"]
 INNER_EVERY, OUTER_EVERY = 0.002, 0.01  # s; crazyflie-firmware, stabilizer_types.h: ATTITUDE_RATE, POSITION_RATE
@@ -187,13 +185,13 @@ class Quadrotors:
 
     def _states_at(self, time: float, numbers: Iterable[float]) -> list[sp.QuadrotorState]:
         position, velocity, attitude, rates = np.split(np.fromiter(numbers, float, 13), (3, 6, 10))
-        R, arms = np.array(rotation_from_quaternion(Quat(*attitude.tolist()))), self.vehicle.lever_arms
+        q, w = tuple(attitude.tolist()), vector(rates)
+        R, arms = np.array(sp.rotation_of(q)), self.vehicle.lever_arms
         places, velocities = position + arms @ R.T, velocity + np.cross(rates, arms) @ R.T
         before = [s.velocity for s in self._states] or velocities
         forces = ((velocities - before) / self._dt + (0.0, 0.0, GRAVITY)) @ R
         thrusts = np.split(self._thrusts, self.count)
         rows = zip(places, velocities, forces, thrusts, self._errors, strict=True)
-        q, w = tuple(attitude.tolist()), vector(rates)
         return [
             error.of(sp.QuadrotorState(time, vector(p), vector(v), q, w, vector(f), tuple(u.tolist())))
             for p, v, f, u, error in rows

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift import Block
 from tandemlift.analysis.studies.design.draws import absolute, dimensions_of, drawn_keys, random_person, values_at
-from tandemlift.analysis.studies.execution.block import Block
 from tandemlift.apps.export.gymnasium_tasks import TASKS, ActionLevel, LearningTask, Level
 from tandemlift.core.errors import InputError, extra, shown, suggestion
 from tandemlift.core.types import Array

@@ -10,7 +10,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.studies.execution.block import Actions, Block
+from tandemlift import Block
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.missions import Mission
@@ -153,7 +153,7 @@ TASKS = {
 PUSH, SPEED = 5.0, 1.0  # N and m/s: the largest along each axis
 OCTAVES = 2.0  # of virtual mass and damping, each way
 MOMENTS = np.array([0.3, 0.3, 0.05])  # of the moment that all thrust has at an arm of 1 m [N m]
-TAKEN: dict[Level, Actions] = {
+TAKEN: dict[Level, Literal["push", "thrusts", "velocity"]] = {
     "push": "push",
     "velocity": "velocity",
     "admittance": "velocity",

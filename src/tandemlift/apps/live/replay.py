@@ -51,7 +51,8 @@ def scene_and_frames(flight: Flight) -> tuple[FlightScene, NDArray[np.float32]]:
     channels = {name: components_of(flight[name][samples]) for name in flight.channels}
     values = arrays_of(field_values(channels, flight.time[samples], phase_times(flight.mission["phases"])))
     frames = pack_frames(layout_for(stage.vehicle.rotor_count), values, len(samples))
-    scene = scene_of_tables(flight.mission, stage.vehicle, flight.version.get("engine", ""), stage.floor)
+    engine = flight.version.get("engine", "")
+    scene = scene_of_tables(flight.mission, flight.walls, stage.vehicle, engine, stage.floor)
     start, end = (float(flight.time[samples[i]]) for i in (0, -1))
     ending = scene_ending(flight.ending, flight["position"][samples[-1]])
     changes = flight.mission.get("changes", ())

@@ -31,28 +31,6 @@ from tandemlift.simulation.recorded_flight import RecordedFlight
 
 
 @contextmanager
-def _gazebo(mission: Mission, *, window: bool, real_time: bool) -> Iterator[str]:
-    """A Gazebo server for one flight, which engine `gazebo` joins within; the address of Gazebo's own transport.
-
-    Args:
-        mission: the mission that will be flown.
-        window: whether to open Gazebo's window.
-        real_time: whether to fly in real time.
-
-    Raises:
-        InputError: there is no Gazebo, or no display for the window.
-    """
-    port = free_port(socket.SOCK_DGRAM)
-    with ExitStack() as closing:
-        server = GazeboServer(world_from(mission, port))
-        closing.callback(server.close)
-        if window:
-            closing.enter_context(_window(server.master))
-        closing.enter_context(_joined(port, server.check, real_time=real_time))
-        yield server.master
-
-
-@contextmanager
 def _joined(port: int, check: Callable[[], None], *, real_time: bool) -> Iterator[None]:
     """A context in which engine `gazebo` joins the server at a port."""
     before = {name: os.environ.get(name) for name in (PORT, REAL_TIME)}
@@ -132,7 +110,12 @@ def fly_in_gazebo(
     window: bool,
     real_time: bool,
 ) -> Flight:
-    """Fly a mission to its end; or, by hand, without its pushes and its person until Ctrl-C: Gazebo's topic pushes."""
+    """Fly a mission to its end; or, by hand, without its pushes and its person until Ctrl-C: Gazebo's topic pushes.
+
+    Raises:
+        InputError: there is no Gazebo, or no display for the window.
+    """
+    flown, port = interactive_mission(mission) if by_hand else mission, free_port(socket.SOCK_DGRAM)
 
     def begun(master: str) -> None:
         push = """gz topic -p /gazebo/default/tandemlift/push -m 'data: "force 2 0 0 point 0 0 0 duration 2"'"""
@@ -140,14 +123,17 @@ def fly_in_gazebo(
         say(f"  {shell_command_for_user(master, push)}" + "\n  Ctrl-C ends it" * by_hand)
         sys.stdout.flush()
 
-    if not by_hand:
-        with _gazebo(mission, window=window, real_time=real_time) as master:
-            begun(master)
-            return fly(mission, "gazebo", progress=progress)
-    mission = interactive_mission(mission)
-    with _gazebo(mission, window=window, real_time=real_time) as master, _stop_signals() as stopped:
-        recorded = RecordedFlight(mission, "gazebo")
-        begun(master)
+    with ExitStack() as closing:
+        server = GazeboServer(world_from(flown, port))
+        closing.callback(server.close)
+        if window:
+            closing.enter_context(_window(server.master))
+        closing.enter_context(_joined(port, server.check, real_time=real_time))
+        if not by_hand:
+            begun(server.master)
+            return fly(flown, "gazebo", progress=progress)
+        stopped, recorded = closing.enter_context(_stop_signals()), RecordedFlight(flown, "gazebo")
+        begun(server.master)
         while not (stopped() or recorded.over):
             recorded.advance()
         return recorded.snapshot().alone()

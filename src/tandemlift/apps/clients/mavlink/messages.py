@@ -11,12 +11,11 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
+from pymavlink.dialects.v20 import common as mavlink
+
+from tandemlift import InputError
 from tandemlift.apps.clients import setpoints as sp
 from tandemlift.apps.clients.mavlink.modes import Autopilot
-from tandemlift.core.errors import InputError, extra
-
-with extra("mavlink", "MAVLink"):
-    from pymavlink.dialects.v20 import common as mavlink
 
 LATITUDE, LONGITUDE, ALTITUDE = 47.397742, 8.545594, 488.0  # deg, deg, m: of the mission's origin; as PX4's simulations
 EARTH = 6371000.0  # m; radius, as in PX4's projection

@@ -9,8 +9,8 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
+from tandemlift import InputError
 from tandemlift.apps.clients.setpoints import ZERO, FullStateSetpoint, PositionSetpoint, QuadrotorState, Setpoint, Stop
-from tandemlift.core.errors import InputError
 
 
 class MavlinkMode(NamedTuple):

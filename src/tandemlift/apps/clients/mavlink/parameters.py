@@ -6,10 +6,10 @@ import struct
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from tandemlift import InputError
 from tandemlift.apps.clients.mavlink.messages import mavlink
 from tandemlift.apps.clients.mavlink.modes import LOSS_ACTION, PARAMETERS
 from tandemlift.apps.clients.mission_numbers import MissionNumber
-from tandemlift.core.errors import InputError
 
 LONGEST = 16  # characters of a name
 

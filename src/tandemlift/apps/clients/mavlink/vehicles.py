@@ -14,13 +14,13 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from typing import Any, Self
 
+from tandemlift import InputError
 from tandemlift.apps.clients.flight import RealTimeFlight
 from tandemlift.apps.clients.mavlink.messages import RATES, attitude_setpoint, mavlink, message, position_setpoint
 from tandemlift.apps.clients.mavlink.modes import LAND, MODES, Autopilot
 from tandemlift.apps.clients.mavlink.parameters import MavlinkParameters
 from tandemlift.apps.clients.mission_numbers import mission_numbers
 from tandemlift.apps.clients.quadrotors import Quadrotors
-from tandemlift.core.errors import InputError
 
 HOST, PORT, OWN = "127.0.0.1", 14540, 40  # where clients of the first quadrotor listen; to add for its own port
 MOST = 8  # other clients of a quadrotor; whoever was silent for longest makes way

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from contextlib import suppress
 from typing import Any
 
@@ -19,7 +18,8 @@ ALWAYS: dict[str, Any] = {
     "phases.land_start": NEVER,
     "admittance.feel": None,  # mass and damping, which it comes to, are changed in flight
 }
-FAINT_TURBULENCE = 1e-3  # m/s: the mission has a wind, which can be raised in flight
+WHERE_POSSIBLE = {"detection.model": "residual", "supervision.model": "on", "contact.model": "on"}
+FAINT_WIND = {"model": "air", "turbulence": 1e-3}  # m/s: the mission has a wind, which can be raised in flight
 
 
 def interactive_mission(mission: Mission) -> Mission:
@@ -31,7 +31,12 @@ def interactive_mission(mission: Mission) -> Mission:
     with without_flight_warnings():  # rotors that may fail raise warnings of their own
         for key, value in {"person": {**hand, "recording": None}, **ALWAYS}.items():
             mission = changed(mission, key, value)
-        for key, value in _if_possible(mission):
+        failing = {(f.quadrotor, f.rotor) for f in mission.faults}
+        rotors = [(q + 1, r + 1) for q in range(len(mission.vehicle.quadrotors)) for r in range(4)]
+        faults = [{"quadrotor": q, "rotor": r, "time": NEVER} for q, r in rotors if (q, r) not in failing]
+        kept = [f.model_dump(mode="json", exclude_none=True) for f in mission.faults]
+        wind = {"wind": FAINT_WIND} if mission.wind.model == "none" else {}
+        for key, value in {"faults": [*kept, *faults], **WHERE_POSSIBLE, **wind}.items():
             with suppress(InputError):
                 mission = changed(mission, key, value)
     return mission
@@ -53,16 +58,3 @@ def other_mission(m: FlyMessage) -> Mission:
 def with_whole_rotors(now: Mission, first: Mission) -> Mission:
     """The present mission, with the rotor faults of the first one."""
     return now.model_copy(update={"faults": first.faults})
-
-
-def _if_possible(mission: Mission) -> Iterator[tuple[str, Any]]:
-    failing = {(f.quadrotor, f.rotor) for f in mission.faults}
-    rotors = [(q + 1, r + 1) for q in range(len(mission.vehicle.quadrotors)) for r in range(4)]
-    faults = [{"quadrotor": q, "rotor": r, "time": NEVER} for q, r in rotors if (q, r) not in failing]
-    kept = [f.model_dump(mode="json", exclude_none=True) for f in mission.faults]
-    yield "faults", [*kept, *faults]
-    yield "detection.model", "residual"
-    yield "supervision.model", "on"
-    yield "contact.model", "on"
-    if mission.wind.model == "none":
-        yield "wind", {"model": "air", "turbulence": FAINT_TURBULENCE}

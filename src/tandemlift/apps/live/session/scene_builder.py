@@ -19,7 +19,6 @@ from tandemlift.core.vector import Absent
 from tandemlift.engines.models.scene import floor_from
 from tandemlift.engines.models.visuals import BEAM_RADIUS, SHAPELESS, VisualShape, vehicle_shapes
 from tandemlift.missions import Mission, tables_of
-from tandemlift.parts.contact.corridor import wall_tables
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import Quadrotor
 from tandemlift.simulation.plan import FlightPlan
@@ -35,11 +34,17 @@ def scene_of(mission: Mission, engine: str) -> server.FlightScene:
     vehicle = Vehicle.from_settings(mission.vehicle)
     floor = floor_from(mission, vehicle)
     height = _lowest(mission.initial.position[2], vehicle) if isinstance(floor, Absent) else float(floor.height)
-    return scene_of_tables(tables_of(mission), vehicle, engine, height)
+    walls = [w.model_dump(mode="json") for w in mission.all_walls]
+    return scene_of_tables(tables_of(mission), walls, vehicle, engine, height)
 
 
-def scene_of_tables(tables: Mapping[str, Any], vehicle: Vehicle, engine: str, floor: float) -> server.FlightScene:
-    """The scene of a mission given as nested tables; `floor` [m] is the height of the floor, or of the level drawn."""
+def scene_of_tables(
+    tables: Mapping[str, Any], walls: Sequence[Mapping[str, Any]], vehicle: Vehicle, engine: str, floor: float
+) -> server.FlightScene:
+    """The scene of a mission given as nested tables, with all its walls.
+
+    `floor` [m]: the height of the floor, or of the level drawn.
+    """
     return server.FlightScene(
         mission=tables["mission"]["name"],
         controller=tables["controller"]["name"],
@@ -50,7 +55,7 @@ def scene_of_tables(tables: Mapping[str, Any], vehicle: Vehicle, engine: str, fl
         vehicle=_vehicle(vehicle),
         ground=tables.get("ground", {}).get("model", "none") != "none",
         floor=floor,
-        walls=[_wall(w, floor) for w in wall_tables(tables) if w["top"] > floor],
+        walls=[_wall(w, floor) for w in walls if w["top"] > floor],
         corridor=_corridor(tables.get("corridor", {})),
         threshold=list(tables["admittance"]["threshold"]),
         spring=SPRING,

@@ -29,7 +29,7 @@ from tandemlift.pictures.drawing.style import (
     save,
     styled,
 )
-from tandemlift.pictures.figures.linear_model import Response, draw
+from tandemlift.pictures.report.study.linear_model_figure import Response, draw
 
 CAPTIONS = {
     "margins": Caption(
