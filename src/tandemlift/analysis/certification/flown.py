@@ -23,7 +23,7 @@ from tandemlift.missions import Mission, check, format_toml, merge, tables_of
 from tandemlift.simulation.fly import Flight, fly_many
 
 LEAST, MOST, COARSE, FINE = 0.5, 1.6, 16, 12  # factors of the predicted limit; flights that look for the limit
-PUSH, LASTS = 0.25, 0.1  # N along each axis, and s of its Gaussian: below the thresholds of a push
+PUSH, LASTS = 0.25, 0.1  # N along each axis at the nominal mass, and s of its Gaussian: below the thresholds of a push
 SETTLES, WATCHED, LONG = 4.0, 8.0, 8.0  # s after the push; of each window; between their beginnings
 SMALL = 0.005  # of the largest motion: below it, motion is over
 PERSISTS = 0.8  # of the motion before: what is left of it at the end does not decay, also in a limit cycle
@@ -126,7 +126,9 @@ def kicked(mission: Mission, changes: Mapping[str, Any]) -> Mission:
     hover, at = hover_as_flown(mission)
     # at the first quadrotor, so that the push turns the vehicle about all axes
     place = np.add(mission.hover.vehicle.origin, mission.vehicle.quadrotors[0].position).tolist()
-    pushes = [{"force": [PUSH] * 3, "time": at + 3.0 * LASTS, "sigma": LASTS, "point": place}]
+    # in proportion to the mass: a lighter vehicle moved more, and its pilot, who assumes the nominal mass, felt a push
+    force = PUSH * changes.get("plant.mass_scale", mission.plant.mass_scale)
+    pushes = [{"force": [force] * 3, "time": at + 3.0 * LASTS, "sigma": LASTS, "point": place}]
     times = {"mission.duration": at + SETTLES + LONG + WATCHED, "mission.log_interval": LOGGED}
     return with_keys(hover, {"pushes": pushes, **times, **changes})
 
