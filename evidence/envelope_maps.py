@@ -54,7 +54,7 @@ def delay_and_lag(axes: Any, m: Mission) -> None:
     loop = open_loop(m)
     delays, lags = np.linspace(0.005, 0.08, COUNT), np.linspace(0.01, 0.13, COUNT)
     keys, (hover, at) = [PARAMETERS[name].keys for name in ("delay", "lag")], hover_as_flown(m)
-    kick, places = kick_keys(m.hover, at), [(d, g) for d in delays for g in lags]
+    kick, places = kick_keys(m.hover, at, m.plant.mass_scale), [(d, g) for d in delays for g in lags]
     calm = flown(
         places, lambda d, g: with_keys(hover, kick | keys[0](m, d) | keys[1](m, g)), lambda f: not stability(f)
     )
@@ -91,7 +91,7 @@ def mass_and_thrust(axes: Any, m: Mission) -> None:
         fault = {"time": 0.0, "efficiency": float(share)}
         rotors = [{**fault, "quadrotor": q + 1, "rotor": r + 1} for q in range(count) for r in range(4)]
         changes = {"plant.mass_scale": float(scale), **({"faults": rotors} if share < 1.0 else {})}
-        return with_keys(hover, kick_keys(m.hover, at) | changes)
+        return with_keys(hover, kick_keys(m.hover, at, scale) | changes)
 
     places = [(x, y) for x in masses for y in shares]
     axes.plot(masses, masses * m.hover.vehicle.weight / m.hover.lift, "k")

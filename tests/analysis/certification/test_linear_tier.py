@@ -133,6 +133,15 @@ def test_flights_do_not_look_for_a_limit_on_the_other_side_of_the_nominal_value(
     assert min(tried) == pytest.approx(0.5)
 
 
+def test_a_vehicle_much_lighter_than_its_pilot_assumes_is_not_pushed_beyond_the_threshold():
+    mission = load_mission("zigzag")
+    least = linear_limit(mission, "mass", growing=False, near=0.5).value
+    trial = trial_of(mission, "mass")
+    light, lighter = tl.fly_many([trial.mission(factor * least) for factor in (1.04, 0.96)])
+    assert trial.ended(light) == ""
+    assert trial.ended(lighter) == "oscillation"
+
+
 def test_the_heaviest_vehicle_is_that_which_its_rotors_lift():
     mission = load_mission("iris")
     assert claim_of("largest mass").value == pytest.approx(mission.hover.lift / mission.hover.weight, rel=1e-6)

@@ -23,7 +23,7 @@ from tandemlift.missions import HoverFacts, Mission, PersonTable, check, format_
 from tandemlift.simulation.fly import Flight, fly_many
 
 LEAST, MOST, COARSE, FINE = 0.5, 1.6, 16, 12  # factors of the predicted limit; flights that look for the limit
-PUSH, LASTS = 0.25, 0.1  # N along each axis, and s of its Gaussian: below the thresholds of a push
+PUSH, LASTS = 0.25, 0.1  # N along each axis at the nominal mass, s of its Gaussian: below the thresholds of a push
 SETTLES, WATCHED, LONG = 4.0, 8.0, 8.0  # s after the push; of each window; between their beginnings
 SMALL = 0.005  # of the largest motion: below it, motion is over
 PERSISTS = 0.8  # of the motion before: what is left of it at the end does not decay, also in a limit cycle
@@ -59,8 +59,13 @@ def trial_of(mission: Mission, name: str) -> LimitTrial:
     if name == ARM:
         place = hover.initial.position
         return LimitTrial(lambda k: with_keys(hover, arm_keys(mission.person, place, at, k)), stability_in_hand, 0.0)
-    kick = kick_keys(mission.hover, at)
-    return LimitTrial(lambda x: with_keys(hover, kick | p.keys(mission, x)), stability, p.nominal(mission))
+
+    def kicked(value: float) -> Mission:
+        keys = p.keys(mission, value)
+        mass_scale = keys.get("plant.mass_scale", mission.plant.mass_scale)
+        return with_keys(hover, kick_keys(mission.hover, at, mass_scale) | keys)
+
+    return LimitTrial(kicked, stability, p.nominal(mission))
 
 
 def flown_limit(trial: LimitTrial, predicted: float, *, threads: int | None = None) -> FlownLimit:
@@ -123,11 +128,13 @@ def _times(at: float) -> dict[str, Any]:
     return {"mission.duration": at + SETTLES + LONG + WATCHED, "mission.log_interval": LOGGED}
 
 
-def kick_keys(hover: HoverFacts, at: float) -> dict[str, Any]:
-    """The changes of a hover that is calm at a time [s], by dotted key, for one weak push of its vehicle."""
+def kick_keys(hover: HoverFacts, at: float, mass_scale: float) -> dict[str, Any]:
+    """The changes of a hover that is calm at a time [s], by dotted key, for one weak push of a vehicle of that scale."""
     # at the first quadrotor, so that the push turns the vehicle about all axes
     place = np.add(hover.vehicle.origin, hover.vehicle.quadrotors[0].position).tolist()
-    pushes = [{"force": [PUSH] * 3, "time": at + 3.0 * LASTS, "sigma": LASTS, "point": place}]
+    # in proportion to the mass: a lighter vehicle moved more, and its pilot, who assumes the nominal mass, felt a push
+    force = PUSH * mass_scale
+    pushes = [{"force": [force] * 3, "time": at + 3.0 * LASTS, "sigma": LASTS, "point": place}]
     return {"pushes": pushes, **_times(at)}
 
 
