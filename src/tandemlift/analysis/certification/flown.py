@@ -129,7 +129,7 @@ def _times(at: float) -> dict[str, Any]:
 
 
 def kick_keys(hover: HoverFacts, at: float, mass_scale: float) -> dict[str, Any]:
-    """The changes of a hover that is calm at a time [s], by dotted key, for one weak push of a vehicle of that scale."""
+    """The changes of a hover that is calm at a time [s], by dotted key, for one weak push of a vehicle of a mass."""
     # at the first quadrotor, so that the push turns the vehicle about all axes
     place = np.add(hover.vehicle.origin, hover.vehicle.quadrotors[0].position).tolist()
     # in proportion to the mass: a lighter vehicle moved more, and its pilot, who assumes the nominal mass, felt a push
