@@ -103,25 +103,25 @@ PARTS = {  # a part that a mission may have, what takes it out, and the group of
 }
 
 
+def test_a_mission_with_all_parts_has_all_channels():
+    assert list(unflown(WHOLE)) == list(CHANNELS)
+
+
 @pytest.mark.parametrize("groups", PARTS)
-def test_channels_are_there_if_and_only_if_the_mission_has_their_part(groups):
-    whole = unflown(WHOLE)
-    without = unflown(WHOLE | PARTS[groups])
+def test_channels_are_not_there_if_the_mission_has_not_their_part(groups):
     missing = channels_in(groups.split(", "))
-    assert list(whole) == list(CHANNELS)
-    assert list(without) == [name for name in CHANNELS if name not in missing]
+    assert list(unflown(WHOLE | PARTS[groups])) == [name for name in CHANNELS if name not in missing]
 
 
-@pytest.mark.parametrize("count", [1, 2, 3, 4])
+@pytest.mark.parametrize("count", [1, 4])
 def test_all_channels_have_their_widths(count):
     flight = unflown(WHOLE, count)
     widths = {name: (1 if array.ndim == 1 else array.shape[1]) for name, array in flight.items()}
     assert widths == {name: channel.columns(count, 4 * count) for name, channel in CHANNELS.items()}
 
 
-@pytest.mark.parametrize("count", [1, 2, 3, 4])
-def test_channels_have_their_widths_for_any_number_of_quadrotors(count):
-    quadrotor = tl.load_mission("paper").vehicle.quadrotors[0].model_dump()
+def test_a_flight_of_three_quadrotors_has_rows_of_these_widths():
+    count, quadrotor = 3, tl.load_mission("paper").vehicle.quadrotors[0].model_dump()
     spread = [quadrotor | {"position": [1.2 * i, 1.0, 0.1]} for i in range(count)]
     flight = tl.fly(tl.load_mission("flight-ready", {"vehicle.quadrotors": spread, "mission.duration": 0.05}))
     widths = {name: (1 if array.ndim == 1 else array.shape[1]) for name, array in flight.items()}

@@ -4,28 +4,11 @@ import pytest
 import tandemlift as tl
 from tandemlift.flight.channels import DERIVED
 
-NAMES = [  # of metrics.json, with how many numbers each has (0: one, not in a list)
-    ("position_rmse_m", 3),
-    ("position_rmse_after_10s_m", 3),
-    ("position_max_error_m", 3),
-    ("position_max_error_after_10s_m", 3),
-    ("attitude_rmse_rad", 3),
-    ("velocity_max_error_after_10s_m_s", 3),
-    ("max_tilt_after_10s_rad", 3),
-    ("final_position_m", 3),
-    ("final_reference_m", 3),
-    ("thrust_min_after_10s_n", 0),
-    ("thrust_max_after_10s_n", 0),
-    ("moment_max_abs_after_10s_n_m", 3),
-    ("command_at_start", 4),
-    ("human_impulse_n_s", 3),
-    ("human_work_j", 0),
-    ("rotor_saturated_share", 0),
-    ("push_triggers_after_10s", 0),
-    ("steps", 0),
-    ("wall_s", 0),
+AFTER_10S = [
+    *("position_rmse_after_10s_m", "position_max_error_after_10s_m", "velocity_max_error_after_10s_m_s"),
+    *("max_tilt_after_10s_rad", "thrust_min_after_10s_n", "thrust_max_after_10s_n"),
+    *("moment_max_abs_after_10s_n_m", "push_triggers_after_10s"),
 ]
-AFTER_10S = [name for name, _ in NAMES if "after_10s" in name]
 WILD = {  # gains that lose the attitude
     "controller.gains.lambda_1": 0,
     "controller.gains.lambda_2": 0,
@@ -154,6 +137,7 @@ def test_the_metrics_are_those_of_every_step(which, request, flown):
     else:
         flight = request.getfixturevalue(which)
     metrics = flight.metrics()
+    assert (metrics["human_work_j"] > 1.0) == (which == "pushed")
     for name, expected in recomputed(flight).items():
         if expected is None:
             assert metrics[name] is None, name
@@ -168,16 +152,11 @@ def test_the_metrics_do_not_depend_on_the_log(flown, pushed):
     assert coarse.metrics() | {"wall_s": 0} == pushed.metrics() | {"wall_s": 0}
 
 
-def test_a_person_s_work_raises_the_energy_of_a_vehicle_that_resists(pushed):
-    assert pushed.metrics()["human_work_j"] > 1.0
-
-
-@pytest.mark.parametrize(("duration", "formed"), [(9.0, False), (10.0, False), (10.001, True), (10.5, True)])
+@pytest.mark.parametrize(("duration", "formed"), [(10.0, False), (10.001, True)])
 def test_after_10_s_there_must_be_a_step(duration, formed, flown):
     metrics = flown("hover", mission__duration=duration).metrics()
     assert [metrics[name] is not None for name in AFTER_10S] == [formed] * len(AFTER_10S)
     assert metrics["position_rmse_m"] is not None
-    assert metrics["steps"] == round(duration / 0.001)
 
 
 def test_a_step_that_does_not_divide_10_s_starts_its_count_after_them(flown):

@@ -114,7 +114,7 @@ def test_no_flight_is_too_odd_to_be_shown(odd, flight):
 
 
 def test_walls_are_in_the_picture_of_a_corridor():
-    zigzag = tl.fly(tl.load_mission("zigzag", {"mission.duration": 1.0}))
+    zigzag = tl.fly(tl.load_mission("zigzag", {"mission.duration": 0.1}))
     assert len(lines(zigzag, "stroke: #8c8c8c")) >= 2
 
 

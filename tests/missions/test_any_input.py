@@ -59,11 +59,6 @@ def test_any_change_is_taken_or_refused(changes):
 
 
 @given(st.dictionaries(st.sampled_from(sorted(SCHEMA)), numbers | lists, min_size=1, max_size=2))
-def test_any_numbers_are_taken_or_refused(changes):
-    check_taken_or_refused(lambda: load_mission("four", changes))
-
-
-@given(st.dictionaries(st.sampled_from(sorted(SCHEMA)), numbers | lists, min_size=1, max_size=2))
 def test_any_numbers_are_taken_or_refused_by_a_mission_that_has_everything(changes):
     check_taken_or_refused(lambda: load_mission("iris", EVERYTHING | changes))
 
@@ -74,12 +69,12 @@ def template():
     return MissionTemplate.read("iris", EVERYTHING)
 
 
-@for_all(sorted(SCHEMA))
-def test_any_edge_is_taken_or_refused(template, key):
+@for_all(list(enumerate(sorted(SCHEMA))))
+def test_any_edge_is_taken_or_refused(template, case):
+    number, key = case
     sizes = [int(n) for n in re.findall(r"list of (\d)", allowed(SCHEMA[key].annotation, SCHEMA[key].metadata))]
-    for edge in (5e-324, 1.7976931348623157e308):  # any others are drawn above
-        for value in (edge, *([edge] * n for n in sizes[:1])):
-            check_taken_or_refused(lambda value=value: template.mission({key: value}))
+    edge = (5e-324, 1.7976931348623157e308)[number % 2]  # others are drawn above
+    check_taken_or_refused(lambda: template.mission({key: [edge] * sizes[0] if sizes else edge}))
 
 
 @given(st.dictionaries(st.sampled_from(["mission", "vehicle", "pushes", "controller"]) | st.text(max_size=5), values))

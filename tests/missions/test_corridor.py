@@ -85,32 +85,3 @@ def test_the_file_keeps_the_centreline_and_the_loop_gets_walls_and_legs():
     assert [(leg.end.x, leg.end.y) for leg in legs] == list(LINE)
     assert [leg.number for leg in legs] == [0.0, 1.0, 2.0, 3.0]
     assert check(tables) == mission
-
-
-@pytest.mark.parametrize(
-    ("changes", "said"),
-    [
-        ({"corridor.centreline": [[0.0, 0.0]]}, "two points or more"),
-        ({"corridor.centreline": [[0.0, 0.0], [0.0, 0.0]]}, "two points or more"),
-        ({"corridor.centreline": [[0.0, 0.0], [5.0, 0.0], [1.0, 0.1]]}, "150°"),
-        ({"corridor.centreline": [[0.0, 0.0], [5.0, 0.0], [5.0, 1.0], [0.0, 1.0]]}, "farther apart"),
-        ({"corridor.centreline": LINE, "ground.model": "none"}, "ground.model"),
-        ({"person.model": "steer"}, "[[person.path]]"),
-        ({"person.model": "pull", "person.grip": 1.2, "corridor.centreline": LINE}, "from -1 m to 1 m"),
-        ({"person.delay": 1.5}, "person.delay"),
-        ({"person.model": "push"}, '"two-hands"'),
-        ({"mission.step": 1e-5, "person.delay": 0.9, "mission.duration": 1.0}, "10000 steps"),
-    ],
-)
-def test_what_cannot_be_is_refused_with_the_key_and_what_is_allowed(changes, said):
-    with pytest.raises(tl.InputError, match="(?s)" + said.replace("[", r"\[").replace("±", ".")):
-        tl.load_mission("hover", {**WALKED, **changes})
-
-
-def test_a_person_who_pushes_during_the_tare_or_asks_in_vain_is_warned_of():
-    person = {"person.model": "steer", "person.path": [{"point": [1.0, 0.0]}], "person.start_time": 2.0}
-    with pytest.warns(tl.FlightWarning) as told:
-        tl.load_mission("iris", {**person, "pilot.guidance": "scheduled"})
-    said = " ".join(str(w.message) for w in told)
-    assert "person.start_time = 2.0 is before the tare ends at 12 s" in said
-    assert "landing request of [person] has no effect" in said

@@ -66,25 +66,3 @@ def test_pages_and_other_machines_have_the_numbers_in_place_of_the_feel(made):
     after = made(mission).admittance
     assert after.feel is None
     assert (after.mass, after.damping) == (mission.admittance.mass, mission.admittance.damping)
-
-
-@pytest.mark.parametrize(
-    ("feel", "message"),
-    [
-        (
-            {"preset": "lihgt"},
-            'admittance.feel.preset = "lihgt": must be "light", "firm" or "slow". Did you mean "light"?',
-        ),
-        ({"force": 0.2}, "admittance.feel.force = 0.2: must be above admittance.threshold = 0.3 along x"),
-        ({"force": [1, 1, 0.3]}, "admittance.feel.force = 0.3: must be above admittance.threshold = 0.3 along z"),
-        ({"speed": 0}, "admittance.feel.speed = 0: must be one number or a list of 3 numbers, each > 0"),
-        ({"time": [1, 2]}, "admittance.feel.time = [1, 2]: must be one number or a list of 3 numbers, each > 0"),
-        ({"softness": 1}, "admittance.feel.softness = 1: unknown key; admittance.feel has preset, force, speed, time"),
-        ("firm", 'admittance.feel = "firm": must be a table with preset, force, speed, time'),
-    ],
-    ids=str,
-)
-def test_what_is_no_feel_is_refused_by_name(feel, message):
-    with pytest.raises(tl.InputError) as error:
-        admittance({"admittance.feel": feel})
-    assert str(error.value) == f"iris: {message}"

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 import pytest
-from warned import warnings_of
 
 import tandemlift as tl
-from tandemlift.core.errors import CLOSE, FAILS, OK, judged
+from tandemlift.core.errors import CLOSE, FAILS, OK, REFUSED, judged
 from tandemlift.core.vector import ZERO, vec3
-from tandemlift.missions import built_in, load_mission, tables_of
+from tandemlift.missions import load_mission
+from tandemlift.missions.checks import mission_checks
 from tandemlift.missions.flight_checks import CHECKS, flight_checks
+from tandemlift.missions.outcomes import promise_of
 from tandemlift.parts.interaction.passage import least_room, places_of
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
@@ -21,123 +24,14 @@ from tandemlift.parts.rotors.authority import CONTROL
 from tandemlift.parts.rotors.hover_loads import SIGMAS, WindOnParts, loads_of
 from tandemlift.simulation.preparation.assemble import assemble
 
-IRIS = tables_of(load_mission("iris"))["vehicle"]["quadrotors"]
-
-
-def rotors(**factors):
-    """The rotors of iris, with numbers of them multiplied."""
-    return {"vehicle.quadrotors": [{**q, **{name: q[name] * f for name, f in factors.items()}} for q in IRIS]}
-
 
 def wind(x, y):
     return {"wind.model": "air", "wind.velocity": [x, y, 0.0], "wind.turbulence": 7.7}
 
 
-def push(**keys):
-    return {"pushes": [{"time": 15.0, "sigma": 0.6, **keys}]}
-
-
-HEARD = "turbulence pushes the payload along x"
-TOLD = {  # of iris, and what its warnings must say: quantity, limit, key
-    "delay 0.1 s": ({"actuators.delay": 0.1}, ["the z loop tolerates 5", "actuators.delay = 0.1 s", "102 ms"]),
-    "delay 0.2 s": ({"actuators.delay": 0.2}, ["the z loop tolerates 5", "actuators.delay = 0.2 s", "202 ms"]),
-    "lag 0.5 s": (rotors(lag_up=40.0, lag_down=20.0), ["oscillates with the rotors' lag of 500 ms", "lag_up"]),
-    "slow and late": (rotors(lag_up=4.0, lag_down=4.0) | {"actuators.delay": 0.03}, ["tolerates 2", "31.5 ms"]),
-    "an unknown yaw moment": ({"disturbance.moment": [0.0, 0.0, 3.0]}, ["yaw moment of 3 N m", "disturbance.moment"]),
-    "wind along x": (wind(4.0, 0.0), [HEARD, "admittance.threshold is 0.3 N", "controller.max_tilt = 0.25"]),
-    "wind along -x": (wind(-4.0, 0.0), [HEARD]),
-    "wind along y": (wind(0.0, 4.0), [HEARD]),
-    "wind along -y": (wind(0.0, -4.0), [HEARD, "estimator.wind_compensation"]),
-    "weak rotors": (rotors(thrust_constant=0.65), ["34.3 N", "compliance.thrust_fraction = 0.9", "33.1 N"]),
-    "30 N downwards": ({"disturbance.force": [0.0, 0.0, -30.0]}, ["64.3 N", "56.5 N", "cannot fly"]),
-    "a push of 30 N downwards": (push(force=[0.0, 0.0, -30.0]), ["in pushes.0, hover needs 64.3 N", "on the floor"]),
-    "a push into the floor": (
-        push(force=[0.0, 0.0, -5.0]),
-        ["pushes.0 moves the reference down", "phases.height = 1 m"],
-    ),
-    "a push that turns over": (push(force=[10.0, 0.0, 0.0], point=[0.0, 0.0, 0.5]), ["pitch moment of 5 N m"]),
-    "a push that carries away": (push(force=[15.0, 0.0, 0.0]), ["15 N across", "controller.max_tilt"]),
-    "a push in the lift": (push(force=[3.0, 0.0, 0.0], time=5.0), ["pushes.0 has its peak at 5 s", "12 s"]),
-    "a landing too late": ({"phases.land_start": 85.0}, ["takes until 97 s", "mission.duration is 90 s"]),
-    "a push below the threshold": (
-        push(force=[0.2, 0.0, 0.1]),
-        ["pushes.0 has 0.2 N along x", "admittance.threshold is 0.3 N", "it is ignored"],
-    ),
-    "noise above the threshold": ({"sensors.joints.force_noise": 1.0}, ["noise is followed as a push"]),
-    "a supervision that refuses": (
-        {"supervision.model": "on", "supervision.checks.thrust_fraction": 0.6},
-        ["supervision.checks.thrust_fraction = 0.6", "the lift is refused"],
-    ),
-}
-
-
-@pytest.mark.parametrize(("changes", "pieces"), TOLD.values(), ids=TOLD)
-def test_what_ends_badly_is_warned_of(changes, pieces):
-    words = warnings_of("iris", changes)
-    assert [piece for piece in pieces if piece not in words] == [], words
-
-
-def test_gains_of_the_paper_on_real_rotors_are_warned_of():
-    assert "the pitch loop oscillates with the rotors' lag of 18.8 ms" in warnings_of(
-        "paper", {"actuators.model": "rotors"}
-    )
-
-
-def test_a_start_that_asks_for_more_than_the_rotors_have_is_warned_of():
-    real = {"actuators.model": "rotors"}
-    assert warnings_of("flight-ready", real) == ""
-    assert "rad of tilt along x" in warnings_of("flight-ready", {**real, "initial.velocity": [-2.9, 0.0, 0.0]})
-    assert "N m in yaw; the rotors give" in warnings_of("flight-ready", {**real, "initial.rates": [0.0, 0.0, -1.8]})
-
-
-@pytest.mark.parametrize(
-    "changes",
-    [
-        push(force=[0.31, 0.2, 0.0]),
-        push(force=[0.0, 0.0, 0.0]),
-        {"pushes": [{"time": time, "sigma": 0.6, "force": [0.2, 0.0, 0.0]} for time in (15.0, 15.2)]},
-        push(force=[0.2, 0.0, 0.0]) | {"admittance.threshold": 0.19},
-        push(force=[0.2, 0.0, 0.0], point=[0.0, 0.9, 0.0]) | {"compliance.yaw.model": "compliant"},
-        push(force=[0.2, 0.0, 0.0]) | {"changes": [{"time": 13.0, "key": "admittance.threshold", "value": 0.1}]},
-    ],
-    ids=["above", "none", "two together", "a low threshold", "turns", "a threshold that changes"],
-)
-def test_a_push_that_moves_the_reference_is_not_called_ignored(changes):
-    assert "it is ignored" not in warnings_of("iris", changes)
-
-
-def test_a_push_that_is_called_ignored_is_ignored():
-    ignored = push(force=[0.29, 0.0, 0.0]) | {"mission.duration": 18.0, "phases.land_start": 60.0}
-    flight = tl.fly(load_mission("iris", ignored))
-    assert "it is ignored" in warnings_of("iris", ignored)
-    moved = np.ptp(flight["reference_position"][flight.time > 13.0], axis=0)
-    assert moved.max() < 1e-4  # m: of noise that exceeds the last 0.01 N of the threshold
-
-
-def test_a_corridor_is_held_against_the_way_the_vehicle_is_led():
-    assert "with its heading kept" in warnings_of("zigzag", {"corridor.width": 2.6})
-    assert "trailing behind its end" in warnings_of("narrow", {"corridor.width": 0.7})
-    assert warnings_of("narrow", {"corridor.width": 1.2}) == ""
-
-
-def test_a_way_that_is_too_long_for_its_mission_is_warned_of():
-    assert "the person's path of" in warnings_of("zigzag", {"mission.duration": 30.0})
-
-
-@pytest.mark.parametrize("controller", ["geometric", "lqr", "pid", "smc", "super-twisting"])
-def test_no_tuned_controller_is_warned_of(controller):
-    assert warnings_of("iris", {}, controller) == ""
-
-
-def test_a_lift_down_into_a_floor_is_refused():
-    with pytest.raises(tl.InputError, match=r"phases.height = -1.0: must be 0 or above over a floor"):
-        load_mission("iris", {"phases.height": -1.0})
-    assert load_mission("paper", {"phases.height": -1.0}).phases.height == -1.0  # without a floor it flies
-
-
 def test_every_result_is_of_a_check_in_the_table():
     names = {check.name for check in CHECKS}
-    for name in built_in():
+    for name in ("paper", "iris", "zigzag", "rotor-loss"):
         assert {result.check for result in flight_checks(load_mission(name))} <= names
 
 
@@ -226,9 +120,7 @@ def test_a_trailing_vehicle_ends_behind_its_grip_and_a_kept_heading_is_kept():
     assert trail.headings[-1] == pytest.approx(-np.pi / 2.0, abs=0.05)
     assert np.ptp(kept.headings) == 0.0
     room, _ = least_room(kept, zigzag.all_walls, zigzag.hover.vehicle)
-    assert room == pytest.approx(
-        2.0 - 1.0, abs=0.01
-    )  # half of 4 m less the quadrotor's arm of 1 m, where it runs along x
+    assert room == pytest.approx(2.0 - 1.0, abs=0.01)  # half of 4 m less the arm of 1 m, where it runs along x
 
 
 def test_the_share_left_for_control_is_where_flights_begin_to_saturate():
@@ -239,10 +131,6 @@ def test_the_share_left_for_control_is_where_flights_begin_to_saturate():
         quick = {"disturbance.moment": [0.0, 0.0, share * yaw], "pushes": [], "mission.duration": 30.0}
         turned.append(float(np.abs(tl.fly(load_mission("iris", {**quick, "phases.land_start": 60.0}))["euler"][-1, 2])))
     assert turned[0] < 0.05 < turned[1]
-
-
-def test_the_lag_is_the_mean_up_and_down():
-    assert load_mission("iris").hover.lag == pytest.approx(0.5 * (0.0125 + 0.025))
 
 
 @pytest.mark.parametrize(("place", "way"), [((0, 1, 0), (1, 0, 0)), ((0, -1, 0), (0, 0, 1)), ((0, 0, 0), (0, 0, -1))])
@@ -258,3 +146,63 @@ def test_a_push_of_that_size_brings_the_first_rotor_to_its_limit(place, way):
     assert min(np.abs(thrusts).min(), np.abs(thrusts - most).min()) < 1e-9
     assert thrusts.min() > -1e-9
     assert thrusts.max() < most + 1e-9
+
+
+def test_the_offset_that_is_told_is_the_one_that_is_flown():
+    mission = load_mission("flight-ready", {"plant.mass_scale": 0.8, "pushes": [], "mission.duration": 40.0})
+    (predicted,) = [r.value for r in flight_checks(mission) if r.check == "offset" and r.subject == "z"]
+    assert tl.fly(mission).metrics()["position_max_error_after_10s_m"][2] == pytest.approx(predicted, rel=0.03)
+
+
+def test_a_caller_pushes_the_vehicle_and_not_the_air():
+    simulation = tl.Simulation(load_mission("paper"))
+    simulation.step(push=[1.0, 0.0, 0.0], point=[0.0, 1.2, 0.0])
+    with pytest.raises(tl.InputError, match=r"point = \[0.0, 50.0, 0.0\]: must be on the vehicle"):
+        simulation.step(push=[1.0, 0.0, 0.0], point=[0.0, 50.0, 0.0])
+
+
+def test_a_recorded_hand_that_holds_the_air_is_refused(tmp_path):
+    hand = np.zeros((1, 14))
+    hand[0, 1:4] = 3.0
+    path = tmp_path / "hand.npz"
+    np.savez(path, step=np.array([100]), hand=hand)
+    with pytest.raises(tl.InputError, match=r"a grip in .*hand.npz = \[3.0, 3.0, 3.0\]: must be on the vehicle"):
+        load_mission("iris", {"person.model": "virtual-hand", "person.recording": str(path)})
+
+
+# loading and `check` read one list of checks
+
+
+def test_a_refused_mission_has_the_refusal_that_loading_says_and_nothing_after_it():
+    iris = load_mission("iris")
+    broken = iris.model_copy(update={"allocation": iris.allocation.model_copy(update={"method": "pseudo-inverse"})})
+    (result,) = mission_checks(broken)
+    assert result.verdict == REFUSED
+    assert tl.check(broken) == (result,)
+    with pytest.raises(tl.InputError) as refusal:
+        load_mission("iris", {"allocation.method": "pseudo-inverse"})
+    assert str(refusal.value) == f"iris: {result.text}"
+
+
+def test_loading_warns_of_what_fails():
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        mission = load_mission("iris", {"plant.mass_scale": 0.5, "sensors.joints.force_range": 2.0})
+    failed = [result.text for result in mission_checks(mission) if result.verdict == FAILS]
+    assert len(told) >= 3
+    assert {str(one.message).removeprefix("iris: ") for one in told} <= set(failed)
+
+
+@pytest.mark.parametrize("name", ["paper", "one-push", "hover"])
+def test_guidance_by_hand_has_a_soft_gate(name):
+    by_hand = {"pilot.guidance": "interactive"}
+    for gate in ({}, {"admittance.gate": "soft"}):
+        assert load_mission(name, by_hand | gate).admittance.gate in (None, "soft")
+    with pytest.raises(tl.InputError, match=r'admittance\.gate = "hard": must be "soft" or left out'):
+        load_mission(name, by_hand | {"admittance.gate": "hard"})
+    assert load_mission(name, {"admittance.gate": "hard"}).admittance.gate == "hard"
+
+
+def test_a_promised_distance_brings_its_root_mean_square_along():
+    mission = load_mission("iris", {"promise.distance": 0.04})
+    assert promise_of(mission.promise, "interactive").rms_promised("interactive") == 0.04

@@ -65,14 +65,6 @@ def test_the_pilot_s_estimate_is_good_enough_to_fly_by(name, flown):
         assert np.abs(error_of_push(flight)).max() < 0.3  # the threshold of the gate
 
 
-def test_a_lost_rotor_neither_turns_nor_drops_the_vehicle(flown):
-    flight = flown("rotor-loss")
-    lost = flight.time > 14.1
-    assert flight["rotor_thrusts"][lost, 0].max() == 0.0
-    assert np.degrees(np.abs(flight["euler"][lost])).max() < 3.0
-    assert np.abs(flight["position_error"][hovering(flight)]).max() < 0.05
-
-
 def test_the_payload_s_mass_is_found_and_pushes_are_read_aright(flown):
     flight = flown("heavy-payload")
     assert flight["payload_mass_estimate"][0] == 0.5

@@ -24,9 +24,7 @@ def write(tmp_path, monkeypatch):
     return lambda text: (tmp_path / "mine.toml").write_text(f'extends = "hover"\n{text}\n', "utf-8")
 
 
-@pytest.mark.parametrize(
-    "text", [f"{LONG} = 1", f"[{LONG}]", f"x = {{ {LONG} = 1 }}", tomli_w.dumps({"changes": [{"key": LONG}]})]
-)
+@pytest.mark.parametrize("text", [f"{LONG} = 1", f"[{LONG}]", tomli_w.dumps({"changes": [{"key": LONG}]})])
 def test_a_mission_with_a_key_of_thousands_of_parts_is_refused_in_little_memory(write, text):
     write(text)
     with (
@@ -34,11 +32,6 @@ def test_a_mission_with_a_key_of_thousands_of_parts_is_refused_in_little_memory(
         pytest.raises(tl.InputError, match=rf"mine.toml: (changes\.0: )?a\.a.*at most {MAX_PARTS} parts"),
     ):
         tl.load_mission("mine.toml")
-
-
-def test_a_change_of_a_key_of_thousands_of_parts_is_refused_in_little_memory(write):
-    with memory_below(MOST), pytest.raises(tl.InputError, match=f"a.a.*at most {MAX_PARTS} parts"):
-        tl.load_mission("hover", {LONG: 1})
 
 
 def test_a_key_of_thousands_of_parts_is_refused_by_set_and_by_explain(tmp_path):
@@ -75,5 +68,8 @@ def with_claim(path, rows):
 def test_an_hour_of_a_hand_that_moves_without_rest_is_read_again(tmp_path):
     steps = np.arange(0, 3_600_000, 7)  # of a millisecond: a page sends a move every 7 ms at most
     hands = np.zeros((len(steps), WIDTH))
+    hands[:100] = np.random.default_rng(1).normal(size=(100, WIDTH))
     write_recording(tmp_path / "hand.npz", Recording(steps, hands))
-    assert np.array_equal(read_recording(str(tmp_path / "hand.npz")).steps, steps)
+    again = read_recording(str(tmp_path / "hand.npz"))
+    assert np.array_equal(again.steps, steps)
+    assert np.array_equal(again.hands, hands)

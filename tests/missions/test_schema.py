@@ -20,8 +20,8 @@ from tandemlift.missions.schema import mission_schema
 
 SAID = mission_schema()
 VALIDATOR = Draft7Validator(SAID)
-VALUES = [-1e9, -1.0, -1e-3, 0.0, 1e-9, 0.02, 0.5, 1.0, 1.4, 3, 64, 65, 1e3, 1e5, 1e12, True, "x", "none", [], {}]
-VALUES += [[1.0] * n for n in (1, 2, 3, 4, 6, 7)] + [[-1.0, 1.0, 1.0], [[1.0] * 4] * 2, [[1.0, 0.0]] * 4, ["x"] * 3]
+VALUES = [-1.0, 0.0, 0.02, 0.5, 1.4, 3, 64, 1e5, 1e12, True, "x", [], {}]
+VALUES += [[1.0] * n for n in (2, 3, 4, 6)] + [[[1.0] * 4] * 2, [[1.0, 0.0]] * 4, ["x"] * 3]
 
 
 def is_valid(tables):
@@ -33,32 +33,29 @@ def test_it_is_a_schema_of_draft_7_in_plain_json():
     assert json.loads(CliRunner().invoke(cli, ["schema"]).output) == mission_schema()
 
 
-@pytest.mark.parametrize("name", built_in())
+@for_all(built_in())
 def test_the_built_in_missions_are_valid_as_written_and_as_resolved(name):
     assert is_valid(tables_of(load_mission(name)))
     assert is_valid(tomllib.loads((DATA / "missions" / f"{name}.toml").read_text("utf-8")))
 
 
-def test_the_template_is_valid():
+def test_the_template_a_feel_and_missions_with_other_controllers_are_valid():
     assert is_valid(tomllib.loads(template_text()))
-
-
-@pytest.mark.parametrize("controller", ["pid", "lqr", "geometric", "smc", "super-twisting"])
-def test_a_mission_with_another_controller_is_valid(controller):
-    assert is_valid(tables_of(load_mission("hover", {"controller.name": controller})))
+    for controller in ("pid", "lqr", "geometric", "smc", "super-twisting"):
+        assert is_valid(tables_of(load_mission("hover", {"controller.name": controller})))
+    assert is_valid({"extends": "paper", "controller": {"name": "mine", "own_gain": 3.0}})
+    assert is_valid({"extends": "paper", "admittance": {"feel": {"force": 2.0}}})
 
 
 @pytest.mark.parametrize(
     "text",
     [
         'extends = "paper"\n[compliance]\nhearing = 3.0',  # the name of 0.1
-        'extends = "paper"\n[complience]\nmax_tilt = 0.3',
         'extends = "paper"\n[mission]\nstep = 0.5',
         'extends = "paper"\n[mission]\nduration = "30"',
         'extends = "paper"\n[admittance]\ngate = "sofft"',
         'extends = "paper"\n[admittance]\nmass = [1.0, 2.0]',
         'extends = "paper"\n[allocation]\nweights = [[1.0, 2.0]]',
-        'extends = "paper"\n[vehicle.payload]\nmass = 0.0',
         'extends = "paper"\n[[pushes]]\nforce = [1.0, 0.0, 0.0]',  # without time and sigma
         'extends = "paper"\n[pushes]\nforce = [1.0, 0.0, 0.0]\ntime = 1.0\nsigma = 1.0',  # one bracket too few
         'extends = "paper"\n[controller]\nname = "pid"\nslope = 3.0',  # of another controller
@@ -72,11 +69,6 @@ def test_what_is_malformed_is_not_valid_and_does_not_load(text, tmp_path):
     (tmp_path / "bad.toml").write_text(text, "utf-8")
     with pytest.raises(tl.InputError):
         load_mission(tmp_path / "bad.toml")
-
-
-def test_a_controller_of_one_s_own_and_a_feel_are_valid():
-    assert is_valid({"extends": "paper", "controller": {"name": "mine", "own_gain": 3.0}})
-    assert is_valid({"extends": "paper", "admittance": {"feel": {"force": 2.0}}})
 
 
 def at(key):

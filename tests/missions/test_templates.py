@@ -43,7 +43,7 @@ def given_by(make):
     return result, {str(w.message) for w in caught}
 
 
-@pytest.mark.parametrize("name", ["paper", "one-push", "flight-ready", "iris", "zigzag", "rotor-loss"])
+@pytest.mark.parametrize("name", ["paper", "iris", "zigzag"])
 def test_a_template_gives_what_load_mission_gives_and_refuses_what_it_refuses(name):
     chance = random.Random(name)
     flown = refused = 0
@@ -73,14 +73,6 @@ def test_a_template_flies_another_controller_with_the_settings_that_the_mission_
         template = MissionTemplate.read("paper", controller=controller)
         changes = {"admittance.mass": 2.0}
         assert template.mission(changes) == load_mission("paper", changes, controller=controller)
-
-
-def test_a_mission_shares_the_tables_that_no_change_touches():
-    template = MissionTemplate.read("paper", {"mission.duration": 2.0})
-    a, b = (template.mission({"mission.seed": seed, "pushes.0.force": [float(seed), 0.0, 0.0]}) for seed in (1, 2))
-    assert a.vehicle is b.vehicle
-    assert a.pushes[1] is b.pushes[1]
-    assert a.pushes[0] != b.pushes[0]
 
 
 def test_changes_do_not_reach_the_next_mission():

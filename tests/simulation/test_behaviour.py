@@ -1,10 +1,11 @@
-"""What is known of the paper's loop: gates, boundary layers, feedforward, ending."""
+"""What is known of the paper's loop: gates, boundary layers, feedforward, ending; and closed forms of where it ends."""
 
 import contextlib
 import math
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import tandemlift as tl
 
@@ -55,21 +56,53 @@ def test_a_motion_that_dies_does_not_linger_in_denormal_numbers():
     assert np.all((speed == 0.0) | (np.abs(speed) > 1e-300))
 
 
-def test_a_diverging_flight_stops_at_once_and_says_which_quantity_when():
-    weak = {"controller.gains.lambda_1": 0.0, "controller.gains.lambda_2": 0.0}
-    flight = tl.fly(tl.load_mission("paper", {**weak, "controller.gains.xi": [4, 2, 11, 0.1, 0.1, 0.1]}))
-    metrics = flight.metrics()
-    assert flight.ending.quantity.startswith("distance")
-    assert metrics["steps"] == round(flight.ending.time / 0.001)
-    assert flight.time[-1] == pytest.approx(math.floor(flight.ending.time * 100.0) / 100.0, abs=0.011)
-    assert math.hypot(*metrics["final_position_m"]) == pytest.approx(flight.ending.value)
-    assert np.linalg.norm(flight["position"], axis=1).max() < 1000.0
-    assert metrics["final_reference_m"] is None
-
-
 def test_a_command_that_is_not_finite_stops_the_flight():
     changes = {"controller.gains.lambda_1": 1e308, "controller.gains.xi": 1e200}
     flight = tl.fly(tl.load_mission("paper", changes))
     assert flight.ending.limit == "must be finite"
     assert flight.metrics()["steps"] <= 2
     assert flight.metrics()["final_position_m"] is None
+
+
+STEP, C = 0.001, 1.6
+
+
+def displacement(A, sigma, threshold=0.0, gate="hard"):
+    """Of T_r by one push with K = 0: the gated impulse over C [m]."""
+    if abs(A) <= threshold:
+        return 0.0
+    d = sigma * math.sqrt(2.0 * math.log(abs(A) / threshold)) if threshold else math.inf
+    whole = A * sigma * math.sqrt(2.0 * math.pi) * math.erf(d / (sigma * math.sqrt(2.0)))
+    taken = math.copysign(2.0 * d * threshold, A) if gate == "soft" and threshold else 0.0
+    return (whole - taken) / C
+
+
+@pytest.mark.parametrize(
+    ("mission", "gate", "tolerance"), [("paper", "hard", 8 * 0.3 * STEP / C), ("flight-ready", "soft", 8e-6)]
+)
+def test_the_whole_mission_ends_at_the_sum_of_its_pushes(mission, gate, tolerance):
+    flight = tl.fly(tl.load_mission(mission))
+    expected = np.zeros(3)
+    for push in flight.mission["pushes"]:
+        for axis, A in enumerate(push["force"]):
+            expected[axis] += displacement(A, push["sigma"], 0.3, gate)
+    np.testing.assert_allclose(flight["admittance_position"][-1], expected, rtol=0, atol=tolerance)
+    np.testing.assert_allclose(flight.metrics()["final_position_m"][:2], expected[:2], rtol=0, atol=1e-3)
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_a_constant_force_leaves_the_offset_at_which_the_surface_carries_it(axis):
+    force = [0.0, 0.0, 0.0]
+    force[axis] = 3.0
+    mission = tl.load_mission("hover", {"disturbance.force": force, "mission.duration": 60.0})
+    gains = mission.controller.gains
+
+    def unbalanced(e):
+        S = gains.xi[axis] * e + gains.eta[axis] * abs(e) ** gains.a[axis] * np.sign(e)
+        held = gains.lambda_1[axis] * S + gains.lambda_2[axis] * math.tanh(S / mission.controller.boundary_layer[axis])
+        return 3.5 * held + 3.0
+
+    error = tl.fly(mission)["position_error"][-1]
+    assert error[axis] == pytest.approx(brentq(unbalanced, -2.0, 0.0, xtol=1e-14), abs=1e-6)
+    if axis < 2:
+        assert abs(error[axis]) == pytest.approx(0.40, abs=0.01)

@@ -19,7 +19,8 @@ from tandemlift.core.law import LAWS
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import LANES
 
-LOOPS = ["paper", "four", "gusts", "zigzag", "rotor-loss"]  # between them every part that a loop may have
+PARTS = {"wind.model": "air", "detection.model": "residual", "supervision.model": "on"}  # beside those of a corridor
+LOOPS = {"one-push": {}, "four": {}, "zigzag": PARTS}  # changes by mission: between them all parts of a loop
 PACKAGE = Path(tl.__file__).parent
 LEVELS = {"quick": machine.QUICK, "best": machine.BEST, "best of blocks": machine.BEST_OF_VECTORS}
 
@@ -34,13 +35,14 @@ def check_run(code, **environment):
 def test_no_compiler_is_loaded_until_something_flies():
     code = """
 import sys, tandemlift as tl
-print("llvmlite" in sys.modules, "numpy" in sys.modules)
-mission = tl.load_mission("paper", {"mission.duration": 0.1})
-print("llvmlite" in sys.modules, "matplotlib" in sys.modules)
-tl.fly(mission)
-print("llvmlite" in sys.modules, "matplotlib" in sys.modules, "numba" in sys.modules)
+print("numpy" in sys.modules)
+from tandemlift.missions import built_in
+missions = [tl.load_mission(name) for name in built_in()]
+print([m for m in ("llvmlite", "scipy", "mujoco", "matplotlib", "numba") if m in sys.modules])
+tl.fly(tl.load_mission("paper", {"mission.duration": 0.1}))
+print([m for m in ("llvmlite", "matplotlib", "numba") if m in sys.modules])
 """
-    assert check_run(code) == ["False", "False", "False", "False", "True", "False", "False"]
+    assert check_run(code) == ["False", "[]", "['llvmlite']"]
 
 
 def test_a_second_process_finds_the_code_and_so_does_one_after_an_edit_that_changes_no_step(tmp_path):
@@ -70,8 +72,8 @@ print(len(made), flight["thrust"].sum().hex(), tl.__file__)
 def test_an_edit_of_any_source_changes_the_key(monkeypatch):
     value = FlightPlan(tl.load_mission("one-push")).model
     before, content = key_of(value), store.content
-    assert sources(value)
-    for path in sources(value):
+    assert len(sources(value)) > 50
+    for path in sources(value)[::8]:
         edit = lambda p, edited=path: content(p) + b"#" * (p == edited)  # noqa: E731
         monkeypatch.setattr(store, "content", edit)
         assert key_of(value) != before
@@ -99,20 +101,7 @@ def test_two_variants_whose_parameters_are_equal_tuples_fly_differently():
 @functools.cache
 def text_of(name, lanes):
     """The module of a built-in mission's loop."""
-    return FlightPlan(tl.load_mission(name)).loop_code._written("loop", lanes).text
-
-
-@pytest.mark.parametrize("name", LOOPS)
-def test_a_loop_calls_no_function_of_the_c_library(name):
-    own = {"sqrt", "fma", "floor", "fabs", "fptosi", "smax", "smin", "vector", "reduce"}  # instructions
-    for lanes in (1, LANES):
-        text = text_of(name, lanes)
-        called = set(re.findall(r"call [^@]*@([A-Za-z0-9_.]+)\(", text))
-        declared = set(re.findall(r"^declare [^@]*@([A-Za-z0-9_.]+)\(", text, re.MULTILINE))
-        defined = set(re.findall(r"^define [^@]*@([A-Za-z0-9_.]+)\(", text, re.MULTILINE))
-        assert called <= declared | defined
-        assert {"llvm"} == {word.split(".")[0] for word in declared}
-        assert {word.split(".")[1] for word in declared} <= own
+    return FlightPlan(tl.load_mission(name, LOOPS[name])).loop_code._written("loop", lanes).text
 
 
 @pytest.mark.parametrize("name", LOOPS)
@@ -123,13 +112,20 @@ def test_the_loop_of_a_block_works_on_all_lanes_at_once(name):
     assert together > 10 * alone  # times, and what else all lanes share
 
 
-@pytest.mark.parametrize("level", LEVELS)
-@pytest.mark.parametrize("lanes", [1, LANES])
-def test_machine_code_needs_nothing_from_outside_but_moves_of_memory(level, lanes):
+@pytest.mark.parametrize(
+    ("name", "level", "lanes"),
+    [
+        ("zigzag", "quick", 1),
+        ("zigzag", "quick", LANES),
+        ("one-push", "best", 1),
+        ("one-push", "best of blocks", LANES),
+    ],
+)
+def test_machine_code_needs_nothing_from_outside_but_moves_of_memory(name, level, lanes):
     """What an object does not define would come from a library."""
     if not sys.platform.startswith("linux"):
         pytest.skip("reads ELF")
-    missing = undefined(machine.compiled(text_of("one-push", lanes), LEVELS[level]))
+    missing = undefined(machine.compiled(text_of(name, lanes), LEVELS[level]))
     assert missing <= {"memset", "memcpy", "memmove"}
 
 

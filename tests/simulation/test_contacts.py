@@ -1,7 +1,6 @@
 """Touches of walls are named as such, quickly, and nothing else is; the reference stays out of the wall."""
 
 import itertools
-import re
 
 import numpy as np
 import pytest
@@ -149,18 +148,3 @@ def test_an_event_says_part_place_and_direction(touches):
     for flight in touches.values():
         first = next(code for code in contact_codes(flight) if code)
         assert f"contact: {describe_contact(first)}" in events(flight)
-
-
-@pytest.mark.parametrize(
-    ("changes", "what"),
-    [
-        ({"pilot.guidance": "scheduled"}, 'contact.model = "on": must be "none" where pilot.guidance is "scheduled"'),
-        ({"pilot.push": "truth"}, 'contact.model = "on": must be "none" where the pilot reads no joints'),
-        ({"contact.threshold": 0.0}, "contact.threshold"),
-        ({"contact.model": "look"}, "contact.model"),
-        ({"pilot.map": "doors"}, "pilot.map"),
-    ],
-)
-def test_a_watch_that_cannot_be_is_refused(changes, what):
-    with pytest.raises(tl.InputError, match=re.escape(what)):
-        tl.load_mission("iris", {"contact.model": "on", **changes})

@@ -1,6 +1,5 @@
 """Whole flights in MuJoCo beside the compiled engine: the same pilot, bodies that share no equation."""
 
-import sys
 from importlib import metadata
 
 import numpy as np
@@ -12,11 +11,6 @@ import tandemlift as tl
 from tandemlift.engines.registry import ENGINES
 
 HALF_MINUTE = {"mission.duration": 30.0}
-WEAK = {
-    "controller.gains.lambda_1": 0.0,
-    "controller.gains.lambda_2": 0.0,
-    "controller.gains.xi": [4.0, 2.0, 11.0, 0.1, 0.1, 0.1],
-}
 FAR = {"walls": [{"start": [900.0, 0.0], "end": [900.0, 1.0]}]}
 
 
@@ -91,38 +85,9 @@ def test_a_controller_in_plain_python_flies_in_mujoco_too(by_hand):
     assert abs(take_off(a) - take_off(b)) <= 0.01 + 1e-9  # s, the interval of the log
 
 
-def test_a_vehicle_pressed_against_a_wall_by_the_wind_is_so_in_both(by_hand):
-    pytest.importorskip("mujoco")
-    strong = {"wind.velocity": [4.0, 1.0, 0.2]}  # m/s
-    a, b = tl.fly(storm(strong)), tl.fly(storm(strong | by_hand), engine="mujoco")
-    pressed = (a.time > 1.0) & (a.time < 2.4)
-    mean = [f["contact_force"][pressed].mean(axis=0) for f in (a, b)]
-    assert mean[0][0] < -0.5  # N
-    np.testing.assert_allclose(*mean, rtol=0.05, atol=0.1)
-    across = np.abs(a["position"] - b["position"])[pressed, :2]
-    assert across.max() < 0.02  # m; pressed by 6 N it also slides down, where friction holds and yields differently
-
-
-def test_a_flight_that_is_lost_is_lost_in_both_at_the_same_time():
-    a, b = in_both(tl.load_mission("paper", WEAK))
-    assert b.ending.quantity == a.ending.quantity
-    assert b.ending.time == pytest.approx(a.ending.time, abs=0.02)
-    assert b.metrics()["steps"] == round(b.ending.time / DT)
-    assert all(np.isfinite(b[name]).all() for name in b)
-
-
 def test_an_engine_that_is_not_known_is_refused_with_those_that_are():
     with pytest.raises(
         tl.InputError, match=r"^unknown engine 'mujoko'; there are compiled, mujoco, gazebo, gazebo-ros\. Did you mean"
     ) as e:
         tl.fly(tl.load_mission("hover"), engine="mujoko")
     assert all(name in str(e.value) and engine.summary for name, engine in ENGINES.items())
-
-
-def test_without_the_package_the_error_says_how_to_get_it(monkeypatch):
-    monkeypatch.setitem(sys.modules, "mujoco", None)
-    models = [f"tandemlift.engines.models.mujoco_{part}" for part in ("bodies", "contact", "import")]
-    for name in ("tandemlift.engines.mujoco", *models):
-        monkeypatch.delitem(sys.modules, name, raising=False)
-    with pytest.raises(tl.InputError, match=r"^engine 'mujoco' needs mujoco: pip install 'tandemlift\["):
-        tl.fly(tl.load_mission("hover", {"mission.duration": 1.0}), engine="mujoco")

@@ -20,20 +20,17 @@ FALSE = {  # on top of mission iris, without a push
     "joints, supervised": {**fault("joints", 0.5), "supervision.model": "on"},
     "joints, upwards": fault("joints", -1.0),
     "joints, little": fault("joints", -0.2, 13.0),
-    "joints, much": fault("joints", 3.0),
     "joints, for a while": fault("joints", 0.6, 25.0, until=40.0),
     "one joint": fault("joints", 0.8, quadrotor=1),
     "accelerometer": fault("accelerometer", 2.0),
     "accelerometer, downwards": fault("accelerometer", -1.0, 30.0),
     "drift of the accelerometer": {"sensors.accelerometer.drift": 0.2},
     "drift of the joints": {"sensors.joints.force_drift": 0.2},
-    "slow drift of the joints": {"sensors.joints.force_drift": 0.05, "mission.seed": 5},
     "drift of the torques": {"sensors.joints.torque_drift": 0.05},
     "gust that stays": gusts(([2.0, 0.0, 0.0], 20.0, 0.5)),
     "gust": gusts(([4.0, 0.0, 0.0], 20.0, 0.5, 2.0)),
     "gust over the tare": gusts(([2.0, 0.0, 0.0], 8.0, 0.5, 6.0)),
     "light gust": gusts(([1.6, 0.0, 0.0], 25.0, 1.0)),
-    "gust aside": gusts(([-2.5, 2.5, 0.0], 20.0, 1.0)),
     "gust from below": gusts(([0.0, 0.0, 2.0], 20.0, 0.5)),
     "gusts one after the other": gusts(
         ([3.4, -3.6, 0.0], 17.6, 1.0, 6.2), ([-1.5, 3.4, 1.1], 42.2, 0.5), ([1.9, -2.5, 0.0], 31.5, 1.0)
@@ -69,17 +66,13 @@ def test_where_nobody_pushes_the_vehicle_stays_where_it_hovers(flights, name):
     assert flights[name].outcome == "landed"
 
 
-@pytest.mark.parametrize("seed", [3, 4])
-def test_it_stays_whatever_else_the_sensors_err_by(seed):
-    names = ("joints", "accelerometer", "gust that stays", "gust over the tare", "drift of the joints")
-    missions = [tl.load_mission("iris", {**QUIET, **FALSE[name], "mission.seed": seed}) for name in names]
-    assert {n: a for n, f in zip(names, tl.fly_many(missions), strict=True) if (a := away(f).max()) > AWAY} == {}
-
-
-@pytest.mark.parametrize(("drift", "seed"), [(0.05, 109), (0.05, 111), (0.2, 111), (0.2, 147)])
-def test_it_stays_however_long_its_joints_drift(drift, seed):
-    changes = {**QUIET, "sensors.joints.force_drift": drift, "mission.seed": seed}
-    assert away(tl.fly(tl.load_mission("iris", changes))).max() < AWAY
+def test_it_stays_whatever_else_the_sensors_err_by_and_however_long_its_joints_drift():
+    names = ("joints", "accelerometer", "gust that stays", "gust over the tare")
+    drifts = [(0.05, 109), (0.05, 111), (0.2, 111), (0.2, 147)]
+    cases = {name: {**FALSE[name], "mission.seed": 3} for name in names}
+    cases |= {f"drift {d}, seed {s}": {"sensors.joints.force_drift": d, "mission.seed": s} for d, s in drifts}
+    flights = tl.fly_many([tl.load_mission("iris", {**QUIET, **changes}) for changes in cases.values()])
+    assert {name: a for name, f in zip(cases, flights, strict=True) if (a := away(f).max()) > AWAY} == {}
 
 
 def test_a_gust_on_the_quadrotors_against_a_push_does_not_end_it():
@@ -97,11 +90,6 @@ def test_it_stays_as_the_wind_goes_though_the_joints_have_drifted_by_what_it_sho
     assert [a for f in flights if (a := away(f).max()) > AWAY] == []
 
 
-def test_it_stays_in_another_engine_too():
-    short = {"mission.duration": 22.0, "phases.land_start": 60.0}
-    assert away(tl.fly(tl.load_mission("iris", {**QUIET, **FALSE["joints"], **short}), engine="mujoco")).max() < 0.2
-
-
 def test_without_confirmation_a_finding_has_the_distance_by_which_the_reference_moved(flights):
     flight = tl.fly(tl.load_mission("iris", {"pushes": [], **FALSE["joints"], "estimator.confirmation": "none"}))
     (found,) = of_kind(flight, "response-without-push")
@@ -110,14 +98,6 @@ def test_without_confirmation_a_finding_has_the_distance_by_which_the_reference_
     assert found.time == pytest.approx(flight.time[np.argmax(moved > 0.1)], abs=0.02)
     assert found.limit == 0.1
     assert not of_kind(flights["calm"], "response-without-push")
-
-
-def test_who_climbs_away_has_not_landed():
-    lifted = fault("joints", -1.0)
-    flight = tl.fly(tl.load_mission("iris", {**QUIET, **lifted, "estimator.confirmation": "none"}))
-    assert flight["position"][-1, 2] > 10.0
-    (found,) = of_kind(flight, "not-landed")
-    assert found.value == pytest.approx(flight["position"][-1, 2] - flight["position"][0, 2])
 
 
 def test_a_push_that_the_motion_refutes_is_told_with_its_size(flights):
@@ -137,21 +117,23 @@ def test_a_joint_that_jumped_is_tared_again_within_seconds():
     assert moved[0] == pytest.approx(moved[1], rel=0.2)  # up to 0.15 N of the error are left
 
 
-@pytest.mark.parametrize("direction", [(1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, 1.0)])
-def test_a_push_of_one_newton_is_followed_for_half_a_minute(direction):
-    flight = tl.fly(tl.load_mission("iris", {"pushes": steady(direction), "phases.land_start": 60.0}))
-    along = flight["velocity"] @ np.array(direction)
-    part = (flight.time > 20.0) & (flight.time < 44.5)
-    speed = 0.7 / 1.6  # beyond the threshold of 0.3 N, over the damping
-    assert along[part].min() > 0.6 * speed
-    assert along[part].mean() == pytest.approx(speed, rel=0.15)
+def test_a_push_of_one_newton_is_followed_for_half_a_minute():
+    directions = np.array([(1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, 1.0)])
+    calm = {"phases.land_start": 60.0, "mission.duration": 45.0}
+    missions = [tl.load_mission("iris", {"pushes": steady(direction), **calm}) for direction in directions]
+    for direction, flight in zip(directions, tl.fly_many(missions), strict=True):
+        along = flight["velocity"] @ direction
+        part = (flight.time > 20.0) & (flight.time < 44.5)
+        speed = 0.7 / 1.6  # beyond the threshold of 0.3 N, over the damping
+        assert along[part].min() > 0.6 * speed
+        assert along[part].mean() == pytest.approx(speed, rel=0.15)
 
 
 def test_a_hand_is_followed_closer_to_its_true_push_than_without_confirmation():
     how = {"motion": {}, "none": {"estimator.confirmation": "none"}, "truth": {"pilot.push": "truth"}}
-    many = [tl.load_mission("iris", {**c, "mission.seed": seed}) for c in how.values() for seed in range(12)]
+    many = [tl.load_mission("iris", {**c, "mission.seed": seed}) for c in how.values() for seed in range(8)]
     metrics = tl.fly_many(many, keep="metrics")
-    ends = dict(zip(how, np.array([m["final_position_m"] for m in metrics]).reshape(3, 12, 3), strict=True))
+    ends = dict(zip(how, np.array([m["final_position_m"] for m in metrics]).reshape(3, 8, 3), strict=True))
     far = {name: np.linalg.norm(ends[name] - ends["truth"], axis=1) for name in ("motion", "none")}
     assert np.median(far["motion"]) < 0.7 * np.median(far["none"])
     assert far["motion"].max() < 0.4  # of nearly 9 m

@@ -87,13 +87,3 @@ def test_wind_and_weak_rotors_are_no_error_of_the_joints(error, flights):
     late = flight.time > 24.0
     if error == "thrust":
         assert np.abs(flight["push_estimate"][late].mean(axis=0)).max() < 0.1  # N; the rotors lost 0.86
-
-
-def test_with_the_body_of_mujoco_the_push_is_found_as_well():
-    pytest.importorskip("mujoco")
-    changes = {"estimator.wrench": "fused", "mission.duration": 24.0, "mission.log_interval": 0.02}
-    flight = tl.fly(tl.load_mission("iris", changes), engine="mujoco")
-    pushed = flight.time > 12.5
-    error = (flight["push_estimate"] - flight["push_force"])[pushed]
-    assert np.abs(flight["push_force"][pushed]).max() > 2.9
-    assert np.sqrt(np.mean(error**2, axis=0)).max() < 0.05

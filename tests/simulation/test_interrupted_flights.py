@@ -23,7 +23,7 @@ DT, LAST = 1e-3, 150  # s; the last step that the plugin takes
 SHORT = {"mission.duration": 0.4, "mission.log_interval": DT, "initial.euler": [0.1, -0.1, 0.3]}
 REASONS = {  # how it is lost, and what is said of it
     "ends": "nothing listens at UDP port {port} any more: Gazebo has ended",
-    "is silent": "the plugin on UDP port {port} did not answer within 0.3 s (STEP 151)",
+    "is silent": "the plugin on UDP port {port} did not answer within 2 s (STEP 151)",
     "gives the pilot up": "the plugin refuses step 151: the session is over: Gazebo has dropped this pilot",
 }
 
@@ -74,7 +74,7 @@ def test_what_was_flown_until_the_engine_is_lost_is_kept_with_the_reason(how, lo
     mission = tl.load_mission("hover", SHORT)
     lost(last=10**6)
     whole = tl.fly(mission, "gazebo")
-    monkeypatch.setattr(gazebo, "STEPPING", 0.3 if how == "is silent" else gazebo.STEPPING)
+    monkeypatch.setattr(gazebo, "STEPPING", 2.0 if how == "is silent" else gazebo.STEPPING)
     port = lost(how).port
     flight = tl.fly(mission, "gazebo")
     assert flight.outcome == "interrupted"
@@ -129,7 +129,7 @@ def test_many_flights_do_not_count_one_that_was_interrupted(lost):
     assert metrics["outcome"] == "interrupted"
 
 
-@pytest.mark.parametrize("last", [1, 2, LAST])
+@pytest.mark.parametrize("last", [1, LAST])
 def test_run_writes_what_was_flown_and_ends_with_3(last, lost, run, tmp_path):
     lost(last=last)
     plain = ["--no-figures"] * (last > 1)  # figures of one sample are the hardest to draw

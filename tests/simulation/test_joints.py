@@ -1,7 +1,6 @@
 """What the joints carry in flight, against Newton and Euler, and the person's push that is read out of it."""
 
 import numpy as np
-import pytest
 from scipy.spatial.transform import Rotation
 from storm import DT, UNIT, calm
 
@@ -82,19 +81,3 @@ def test_perfect_sensors_measure_the_push_as_soon_as_their_delay_allows():
     assert np.sum(flight["contact_force"][:, 2] > 1.0) > 300
     assert np.abs(true).max() > 1.5
     assert np.abs(measured - true).max() < 1e-9  # N
-
-
-@pytest.mark.parametrize("place", [0.7, -0.35])
-def test_real_sensors_find_where_the_hand_is_to_two_centimetres_while_it_presses(place):
-    vehicle = tl.Vehicle.from_settings(calm().vehicle)
-    center = vehicle.center_of_mass
-    real = tl.load_mission("iris").sensors.model_dump(mode="json")
-    sensors = {f"sensors.{name}": real[name] for name in ("joints", "accelerometer", "gyroscope")}
-    hand = {"force": [0.0, 0.0, 4.0], "time": 6.5, "sigma": 1.2, "point": [-center[0], place - center[1], -center[2]]}
-    times = {"mission.duration": 9.0, "phases.land_start": 20.0, "estimator.tare_duration": 1.0}
-    flight = tl.fly(calm(EVERY | times | sensors | {"pushes": [hand]}))
-    pressing = np.linalg.norm(flight["push_force"], axis=1) >= 3.0
-    assert flight.ending is None
-    assert pressing.sum() > 1000
-    assert np.abs(flight["push_point_estimate"][pressing] - place).max() < 0.02  # m
-    np.testing.assert_allclose(flight["push_estimate"][pressing], flight["push_force"][pressing], atol=0.5)

@@ -1,13 +1,11 @@
-"""Flights in blocks and on threads are the flights flown alone, to the last bit."""
-
-import threading
+"""Flights in blocks, on threads and in several engines are the flights flown alone, to the last bit."""
 
 import numpy as np
 import pytest
 from flights import different
-from patience import joined
 
 import tandemlift as tl
+from tandemlift.analysis.studies.execution.flying import fly_each
 from tandemlift.core.errors import InputError
 from tandemlift.missions import MissionTemplate
 from tandemlift.simulation import fly as fly_module
@@ -48,21 +46,12 @@ def test_a_mixture_of_variants_and_lengths_comes_back_in_the_order_given():
         assert different(together[i], tl.fly(missions[i])) == []
 
 
-def test_the_number_of_threads_changes_nothing():
+def test_the_number_of_threads_changes_nothing_and_metrics_alone_are_those_of_the_flights():
     missions = spread("paper", 19)
-    for one, two in zip(tl.fly_many(missions, threads=1), tl.fly_many(missions, threads=3), strict=True):
+    flights = tl.fly_many(missions, threads=1)
+    for one, two in zip(flights, tl.fly_many(missions, threads=3), strict=True):
         assert different(one, two) == []
-
-
-def test_keeping_metrics_only_gives_the_same_metrics():
-    missions = [*spread("paper", 9), tl.load_mission("hover")]
-    kept = tl.fly_many(missions, keep="metrics")
-    for flight, metrics in zip(tl.fly_many(missions), kept, strict=True):
-        del metrics["wall_s"]
-        assert {k: v for k, v in flight.metrics().items() if k != "wall_s"} == metrics
-
-
-def test_no_missions_make_no_flights():
+    assert timeless(tl.fly_many(missions, keep="metrics")) == timeless(flight.metrics() for flight in flights)
     assert tl.fly_many([]) == []
 
 
@@ -93,24 +82,6 @@ def test_missions_of_an_iterator_are_read_while_others_fly_and_come_back_in_orde
     assert max(ahead) <= 3 * LANES
     assert totals[-1] == (200, 200)
     assert all(flown <= total <= 200 for flown, total in totals)
-
-
-def test_flights_are_sorted_by_when_rotors_fail_and_come_back_in_the_order_given(monkeypatch):
-    monkeypatch.setattr(fly_module, "SORTED", 2 * LANES)
-    template = MissionTemplate.read("rotor-loss", {"mission.duration": 1.5, "phases.lift_start": 0.1}, quiet=True)
-    times = [
-        *np.random.default_rng(0).permutation(np.linspace(0.3, 1.4, 2 * LANES + 3)),
-        *[9.0 + i for i in range(LANES)],
-    ]
-    missions = [template.mission({"mission.seed": i, "faults.0.time": float(t)}) for i, t in enumerate(times)]
-    groups = fly_module._FlightGroups(missions)
-    blocks = [sorted(times[place] for place in group.places) for group in iter(groups.take, None)]
-    assert sorted(map(len, blocks)) == [3, LANES, LANES, LANES]
-    assert [9.0 + i for i in range(LANES)] in blocks  # after the end, where they are alike and wait for no others
-    early, late = (block for block in blocks if len(block) == LANES and block[0] < 1.5)
-    assert max(early) < min(late)
-    for flown, mission in zip(tl.fly_many(missions), missions, strict=True):
-        assert different(flown, tl.fly(mission)) == []
 
 
 def test_no_more_missions_wait_for_others_of_their_variant_than_allowed(monkeypatch):
@@ -153,11 +124,13 @@ def test_an_error_of_the_callers_iterator_ends_the_call():
         tl.fly_many(reading(), "metrics", 2)
 
 
-@pytest.mark.parametrize("count", [0, 1, 3, 8, 9, 40])
-def test_the_number_of_pushes_is_data(count):
-    pushes = [{"force": [0.5, 0.0, 0.0], "time": 5.0 + 0.3 * i, "sigma": 0.4} for i in range(count)]
-    metrics = tl.fly(tl.load_mission("one-push", {"pushes": pushes, "mission.duration": 30.0})).metrics()
-    assert metrics["human_impulse_n_s"][0] == pytest.approx(count * 0.5 * 0.4 * np.sqrt(2 * np.pi), rel=1e-9, abs=1e-12)
+def test_the_number_of_pushes_is_data():
+    counts = [0, 1, 8, 9, 40]
+    pushes = [{"force": [0.5, 0.0, 0.0], "time": 5.0 + 0.3 * i, "sigma": 0.4} for i in range(max(counts))]
+    missions = [tl.load_mission("one-push", {"pushes": pushes[:n], "mission.duration": 30.0}) for n in counts]
+    assert len({FlightPlan(mission).variant for mission in missions}) == 1
+    found = [m["human_impulse_n_s"][0] for m in tl.fly_many(missions, keep="metrics")]
+    assert found == pytest.approx(np.array(counts) * 0.5 * 0.4 * np.sqrt(2 * np.pi), rel=1e-9, abs=1e-12)
 
 
 @pytest.mark.parametrize(("keyword", "value"), [("keep", "all"), ("threads", 0), ("threads", 1.5)])
@@ -166,16 +139,48 @@ def test_what_is_not_a_choice_is_refused_by_name(keyword, value):
         tl.fly_many([], **{keyword: value})
 
 
-def test_threads_of_the_users_own_may_fly_at_once():
-    missions = spread("paper", 4)
-    alone = [tl.fly(m) for m in missions]
-    results = [None] * 4
+# in whatever engine
 
-    def work(i):
-        results[i] = tl.fly(missions[i])
+BRIEF = {"mission.duration": 0.2}
 
-    threads = [threading.Thread(target=work, args=(i,), daemon=True) for i in range(4)]
-    for thread in threads:
-        thread.start()
-    joined(*threads)
-    assert all(different(a, b) == [] for a, b in zip(alone, results, strict=True))
+
+def hovers(*masses):
+    return [tl.load_mission("hover", {**BRIEF, "plant.mass_scale": mass}) for mass in masses]
+
+
+@pytest.fixture
+def heavy():
+    """A mission that loads, and that no plan can be made of."""
+    mission = hovers(1.0)[0]
+    return mission.model_copy(update={"vehicle": mission.vehicle.model_copy(update={"quadrotors": ()})})
+
+
+def without_time(metrics):
+    return {key: value for key, value in metrics.items() if key != "wall_s"}
+
+
+def test_each_mission_flies_in_its_engine_in_the_order_given():
+    missions, engines = hovers(1.0, 1.01, 0.99, 1.02), ("mujoco", "compiled", "mujoco", "compiled")
+    heard = []
+    flown = fly_each(missions, engines, keep="flights", progress=lambda *now: heard.append(now))
+    for mission, engine, flight in zip(missions, engines, flown, strict=True):
+        assert without_time(flight.metrics()) == without_time(tl.fly(mission, engine).metrics())
+    assert heard[-1] == (4, 4)
+    assert [done for done, _ in heard] == sorted(done for done, _ in heard)
+
+
+def test_metrics_are_those_of_the_flights():
+    missions = hovers(1.0, 1.01)
+    for engine in ("compiled", "mujoco"):
+        flights = fly_each(missions, engine, keep="flights")
+        metrics = fly_each(missions, engine)
+        assert list(map(without_time, metrics)) == [without_time(flight.metrics()) for flight in flights]
+
+
+def test_in_mujoco_too_a_mission_that_cannot_be_built_is_told_by_its_place_and_the_others_fly(heavy):
+    one, two = hovers(1.0, 1.01)
+    with pytest.raises(tl.InputError):
+        fly_each([one, heavy, two], "mujoco")
+    flown = fly_each([one, heavy, two], "mujoco", refusals=True)
+    assert isinstance(flown[1], tl.InputError)
+    assert [without_time(m) for m in (flown[0], flown[2])] == [without_time(m) for m in fly_each([one, two], "mujoco")]

@@ -72,8 +72,6 @@ def test_a_flight_that_flies_on_ends_at_rest_and_counts_until_the_crash(flown):
 @pytest.mark.parametrize(
     ("name", "changes", "outcome"),
     [
-        ("paper", {}, "landed"),
-        ("paper", {"mission.duration": 40.0}, "flying"),
         ("iris", {}, "landed"),
         ("iris", {"mission.duration": 30.0}, "flying"),
         ("iris", {"disturbance.force": [0.0, 0.0, -30.0], "mission.duration": 9.0}, "not-lifted"),

@@ -5,9 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.core.types import flat
-from tandemlift.missions.recording import WIDTH, Recording, read_recording, write_recording
-from tandemlift.parts.interaction.virtual_hand import HAND_RELEASED
+from tandemlift.missions.recording import Recording, write_recording
 
 LONG_PUSH = [{"force": [2.0, 0.0, 0.0], "time": 10.0, "sigma": 1e6}]
 FREE = {"admittance.stiffness": 0.0, "admittance.mass": 2.0, "admittance.damping": 2.0, "admittance.threshold": 0.0}
@@ -58,13 +56,7 @@ def test_a_change_to_the_same_value_changes_no_bit():
     same = tl.fly(load([change("admittance.damping", list(plain.mission["admittance"]["damping"]))]))
     for channel in plain.channels:
         np.testing.assert_array_equal(same[channel], plain[channel])
-
-
-def test_nothing_is_different_before_a_change_is_due():
-    plain, later = tl.fly(load()), tl.fly(load([change("controller.gains.xi", 1.0)]))
-    before = plain.time < 5.0
-    np.testing.assert_array_equal(later["position"][before], plain["position"][before])
-    assert np.abs(later["moment"] - plain["moment"])[~before].max() > 0
+    assert same.metrics()["wall_s"] > 0.0
 
 
 def test_another_controller_takes_over_in_flight():
@@ -131,25 +123,6 @@ def test_a_spring_is_let_go_of_as_smoothly_as_it_was_taken(tmp_path):
     assert held > 1.0
     assert np.abs(np.diff(push)).max() < 0.05 * held
     assert push[-1] < 1e-3
-
-
-def test_a_row_of_a_recording_is_a_hand():
-    assert len(flat(HAND_RELEASED)) == WIDTH
-
-
-def test_a_recording_comes_back_as_it_was_written(tmp_path):
-    recording = Recording(np.array([0, 4, 9]), np.random.default_rng(1).normal(size=(3, WIDTH)))
-    write_recording(tmp_path / "hand.npz", recording)
-    again = read_recording(str(tmp_path / "hand.npz"))
-    np.testing.assert_array_equal(again.steps, recording.steps)
-    np.testing.assert_array_equal(again.hands, recording.hands)
-
-
-def test_a_mission_finds_its_recording_beside_its_file(tmp_path):
-    recorded(tmp_path / "hand.npz", [(0, hand())])
-    file = tmp_path / "mine.toml"
-    file.write_text('extends = "one-push"\n[person]\nmodel = "virtual-hand"\nrecording = "hand.npz"\n', "utf-8")
-    assert tl.load_mission(file).person.recording == str((tmp_path / "hand.npz").resolve())
 
 
 @pytest.mark.parametrize(

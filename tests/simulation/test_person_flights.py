@@ -103,12 +103,3 @@ def test_what_a_person_sees_is_what_was_exactly_their_delay_ago():
     assert np.ptp(np.array(was)[:, 2]) > 0.05
     assert np.array_equal(seen[late:], was[:-late])
     assert np.array_equal(seen[:late], [was[0]] * late)
-
-
-def test_the_other_engine_brings_it_through_as_well():
-    mission = tl.load_mission("zigzag")
-    flight = tl.fly(mission, "mujoco")
-    metrics = flight.metrics()
-    assert metrics["clearance_min_m"] > LEAST["zigzag"] - 0.1
-    assert_through_and_landed(metrics, mission)
-    assert metrics["human_force_mean_n"] > 1.0

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -13,7 +12,7 @@ from hypothesis import strategies as st
 from machine_code import answers
 from scipy import stats
 
-from tandemlift.compiler.machine_code.functions import compiled, written
+from tandemlift.compiler.machine_code.functions import compiled
 from tandemlift.simulation.loop.random_numbers import MASK, Words, key_from_seed, normal_radius, normals, philox
 
 LANES, STEPS, DRAWS, SEEDS = 8, 20_000, 3, 5
@@ -57,16 +56,12 @@ def words_of(first, second, third, fourth, key0, key1):
     return philox(Words(int(first), int(second), int(third), int(fourth)), int(key0), int(key1))
 
 
-@pytest.mark.parametrize(("counter", "key", "answer"), KNOWN)
-def test_philox_gives_the_published_answers(counter, key, answer):
-    assert list(philox(Words(*hexadecimal(counter)), *hexadecimal(key))) == hexadecimal(answer)
-
-
-@pytest.mark.parametrize("lanes", [1, LANES])
-@pytest.mark.parametrize(("counter", "key", "answer"), KNOWN)
-def test_philox_in_machine_code_gives_the_published_answers(counter, key, answer, lanes):
-    given = hexadecimal(counter) + hexadecimal(key)
-    assert list(answers(words_of, (0.0,) * 6, [given], lanes)[0]) == hexadecimal(answer)
+def test_philox_in_python_and_in_machine_code_gives_the_published_answers():
+    rows = [hexadecimal(counter) + hexadecimal(key) for counter, key, _ in KNOWN]
+    published = [hexadecimal(answer) for *_, answer in KNOWN]
+    assert [list(words_of(*row)) for row in rows] == published
+    for lanes in (1, LANES):
+        assert answers(words_of, (0.0,) * 6, [*rows, *[rows[0]] * 5], lanes)[: len(rows)].tolist() == published
 
 
 @given(st.integers(0, 10**9), st.integers(0, 100), words, words)
@@ -96,37 +91,10 @@ def test_a_flight_in_a_block_gets_the_bits_of_a_flight_alone(step, draw):
     assert code(LANES)(rows).tobytes() == code(1)(rows).tobytes()
 
 
-def test_a_block_goes_through_vector_instructions():
-    text, _ = written(normals, 0.0, 0.0, 0.0, 0.0, lanes=LANES)
-    assert f"mul <{LANES} x i64>" in text
-    assert f"call <{LANES} x double> @llvm.fma.v{LANES}f64" in text
-    assert "llvm.fma.f64" not in text
-    for name in ("@sin(", "@cos(", "@log(", "@llvm.sin", "@llvm.cos", "@llvm.log"):
-        assert name not in text
-
-
-def test_the_numbers_do_not_depend_on_the_order_in_which_they_are_asked_for(sample):
-    for step in (STEPS - 1, 0, 137):
-        assert np.array_equal(alone(step, 1, *key_from_seed(2)), sample[2, 1, :, step])
-
-
 def test_the_numbers_are_normal(sample):
     for part in sample.reshape(-1, STEPS):
         assert stats.kstest(part, "norm").pvalue > 1e-4  # of 60 parts
     assert stats.kstest(sample.ravel(), "norm").pvalue > 1e-2
-
-
-def test_moments_are_those_of_the_normal_distribution(sample):
-    """Each within five standard errors: 1, √2, √15, √96 over √n."""
-    x, n = sample.ravel(), sample.size
-    for power, moment, error in ((1, 0.0, 1.0), (2, 1.0, 2.0), (3, 0.0, 15.0), (4, 3.0, 96.0)):
-        assert abs(np.mean(x**power) - moment) < 5.0 * np.sqrt(error / n)
-
-
-def test_the_tails_are_as_heavy_as_they_should_be(sample):
-    for limit in (2.0, 3.0, 4.0):
-        expected = sample.size * 2.0 * stats.norm.sf(limit)
-        assert abs(np.sum(np.abs(sample) > limit) - expected) < 5.0 * np.sqrt(expected)
 
 
 def test_steps_do_not_depend_on_one_another(sample):
@@ -149,8 +117,3 @@ def test_a_key_is_two_words_that_floats_hold_and_seeds_do_not_share():
     assert len(set(keys)) == len({key for key, _ in keys}) == len({key for _, key in keys}) == 2000
     assert all(isinstance(word, float) and word == int(word) and 0 <= word <= MASK for key in keys for word in key)
     assert [int(word) for word in key_from_seed(7)] == list(np.random.SeedSequence(7).generate_state(2))
-
-
-def test_neighbouring_steps_draws_and_keys_differ():
-    at = [alone(*given) for given in ((5, 1, 3.0, 4.0), (6, 1, 3.0, 4.0), (5, 2, 3.0, 4.0), (5, 1, 4.0, 4.0))]
-    assert all(np.abs(a - b).min() > 1e-6 for a, b in pairwise(at))

@@ -13,10 +13,20 @@ def lost(quadrotor, rotor, time=TIME, **changes):
     return tl.load_mission("rotor-loss", {"faults": [fault], "mission.log_interval": 0.002, **changes})
 
 
-@pytest.fixture(scope="module", params=[(1, 1), (1, 2), (2, 3), (2, 4)], ids="quadrotor {0[0]} rotor {0[1]}".format)
-def flown(request):
-    quadrotor, rotor = request.param
-    return 4 * (quadrotor - 1) + rotor, tl.fly(lost(quadrotor, rotor, **{"mission.seed": rotor}))
+ROTORS = [(1, 1), (1, 2), (2, 3), (2, 4)]
+
+
+@pytest.fixture(scope="module")
+def flights():
+    """Flights that lose a rotor each, and last one that loses none."""
+    losses = [lost(quadrotor, rotor, **{"mission.seed": rotor}) for quadrotor, rotor in ROTORS]
+    return tl.fly_many([*losses, lost(1, 1, time=1e6)])
+
+
+@pytest.fixture(params=range(len(ROTORS)), ids=lambda i: "quadrotor {} rotor {}".format(*ROTORS[i]))
+def flown(request, flights):
+    quadrotor, rotor = ROTORS[request.param]
+    return 4 * (quadrotor - 1) + rotor, flights[request.param]
 
 
 def test_it_is_named_rightly_and_once_within_100_ms(flown):
@@ -57,8 +67,8 @@ def test_what_the_rotor_gave_is_not_taken_for_wind(flown):
     assert np.abs(off[:, 2]).max() < 2.0  # N; it gave 4.3
 
 
-def test_without_a_loss_none_is_named_and_nothing_makes_it_land_before_its_time():
-    flight = tl.fly(lost(1, 1, time=1e6))
+def test_without_a_loss_none_is_named_and_nothing_makes_it_land_before_its_time(flights):
+    flight = flights[-1]
     assert flight.metrics()["rotor_failure_detections"] == 0.0
     assert flight.metrics()["rotor_failure_detection_delay_s"] is None
     assert set(flight["phase"][(flight.time > 7.0) & (flight.time < 20.0)]) == {2.0}

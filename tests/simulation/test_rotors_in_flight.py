@@ -99,13 +99,3 @@ def test_no_command_and_no_thrust_ever_leaves_its_limits():
         assert flight["rotor_thrusts"].min() >= 0.0
         assert np.all(flight["rotor_thrusts"] <= most * check_ground_ratios(mission, flight) * (1.0 + 1e-12))
         assert np.all(flight["allocation_fraction"] <= 1.0)
-
-
-def test_within_limits_the_allocated_wrench_is_the_wanted_one():
-    flight = tl.fly(storm({"faults.0.time": 900.0}))
-    commands = flight["rotor_commands"]
-    free = np.all((commands > 0.0) & (commands < 7.06), axis=1)
-    assert free.sum() > 100
-    np.testing.assert_allclose(flight["allocated_thrust"][free], flight["thrust"][free], rtol=1e-9)
-    np.testing.assert_allclose(flight["allocated_moment"][free], flight["moment"][free], atol=1e-9)
-    np.testing.assert_allclose(flight["allocation_fraction"][free], 1.0, atol=1e-9)

@@ -43,28 +43,15 @@ def sensors(*faults):
     return {"sensor_faults": list(faults)}
 
 
+SENSORS = ("joints", "accelerometer", "gyroscope", "position", "velocity", "attitude")
+TOO_MUCH = dict(zip(SENSORS, (200.0, 100.0, 20.0, 200.0, 30.0, 1.0), strict=True))  # beyond the range of each
 TRIED_WITH = {  # each fault by its text, and the changes of the mission that lead to it
     "attitude and gyroscope lost": sensors(failed("attitude", "nan"), failed("gyroscope", "nan")),
     "imu stale": sensors(failed("imu", "stale")),
     "motion stale": sensors(failed("motion", "stale")),
-    "joints frozen": sensors(failed("joints", "frozen")),
-    "joints not a number": sensors(failed("joints", "nan")),
-    "joints out of range": sensors(failed("joints", "range", size=200.0)),
-    "accelerometer frozen": sensors(failed("accelerometer", "frozen")),
-    "accelerometer not a number": sensors(failed("accelerometer", "nan")),
-    "accelerometer out of range": sensors(failed("accelerometer", "range", size=100.0)),
-    "gyroscope frozen": sensors(failed("gyroscope", "frozen")),
-    "gyroscope not a number": sensors(failed("gyroscope", "nan")),
-    "gyroscope out of range": sensors(failed("gyroscope", "range", size=20.0)),
-    "position frozen": sensors(failed("position", "frozen")),
-    "position not a number": sensors(failed("position", "nan")),
-    "position out of range": sensors(failed("position", "range", size=200.0)),
-    "velocity frozen": sensors(failed("velocity", "frozen")),
-    "velocity not a number": sensors(failed("velocity", "nan")),
-    "velocity out of range": sensors(failed("velocity", "range", size=30.0)),
-    "attitude frozen": sensors(failed("attitude", "frozen")),
-    "attitude not a number": sensors(failed("attitude", "nan")),
-    "attitude out of range": sensors(failed("attitude", "range", size=1.0)),
+    **{f"{sensor} frozen": sensors(failed(sensor, "frozen")) for sensor in TOO_MUCH},
+    **{f"{sensor} not a number": sensors(failed(sensor, "nan")) for sensor in TOO_MUCH},
+    **{f"{sensor} out of range": sensors(failed(sensor, "range", size=size)) for sensor, size in TOO_MUCH.items()},
     "joints disagree": sensors(failed("joints", "bias", quadrotor=1, size=[5, 0, 0])),
     "attitude disagrees with gyroscope": sensors(failed("gyroscope", "bias", size=[0.4, 0, 0])),
     "velocity disagrees with position": sensors(failed("velocity", "bias", size=[0.25, 0, 0])),

@@ -1,4 +1,7 @@
-"""A simulation stepped by hand is the flight that `tl.fly` flies; what its caller adds does what mechanics says."""
+"""A simulation stepped by hand is the flight that `tl.fly` flies; what its caller adds does what mechanics says.
+
+The pilot alone gives the thrusts that it gives in a flight, measurement by measurement.
+"""
 
 import math
 from dataclasses import replace
@@ -6,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
-from scipy.integrate import quad, solve_ivp
+from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
@@ -21,13 +24,9 @@ CHANGES = [
     {"time": 4.0, "key": "controller.name", "value": "pid"},
 ]
 FLOWN = {
-    "hover": ("hover", {"mission.duration": 3.0}),
-    "paper": ("paper", {"mission.duration": 12.0}),
     "sensors and estimators": ("iris", {"mission.duration": 12.5}),
-    "wind and gusts": ("gusts", {"mission.duration": 6.0, "wind.turbulence": 1.0}),
     "a person and walls": ("zigzag", {"mission.duration": 12.0}),
     "pushes at points": ("off-centre-push", {"mission.duration": 4.0}),
-    "a lost rotor": ("rotor-loss", {"mission.duration": 16.0}),
     "changes in flight": ("one-push", {"mission.duration": 6.0, "changes": CHANGES}),
     "a grid that does not divide": ("hover", {"mission.duration": 1.003, "mission.log_interval": 0.007}),
 }
@@ -51,12 +50,6 @@ def same(a, b):
     return a == b
 
 
-def body_of(flight, k=-1):
-    """Position, velocity, rotation and rates of a sample."""
-    rotation = Rotation.from_quat(flight["attitude"][k], scalar_first=True)
-    return flight["position"][k], flight["velocity"][k], rotation, flight["rates"][k]
-
-
 # without a caller's push
 
 
@@ -76,8 +69,8 @@ def test_it_is_the_flight_in_mujoco_as_well():
 @pytest.mark.parametrize("case", RECORDED_ON_THE_WAY)
 def test_the_record_asked_for_on_the_way_is_that_of_a_shorter_flight_and_changes_nothing(case):
     name, changes = FLOWN[case]
-    sim, steps = tl.Simulation(tl.load_mission(name, changes)), [1, 16, 1000, 2000, 4300]
-    for k in steps:
+    sim = tl.Simulation(tl.load_mission(name, changes))
+    for k in (1, 16, 1000, 4300):
         while sim.k < k:
             sim.step()
         shorter = tl.fly(tl.load_mission(name, changes | {"mission.duration": k * sim.dt}))
@@ -173,11 +166,9 @@ def test_a_push_at_a_point_turns_the_body_as_newton_and_euler_say():
     np.testing.assert_allclose(sim["push_moment"], moment, atol=1e-13)
 
 
-@pytest.mark.parametrize(
-    ("name", "point"), [("hover", [0.0, 0.0, 0.0]), ("iris", [0.0, 0.4, 0.0]), ("iris", [0.0, 0.0, 0.0])]
-)
-def test_a_constant_push_moves_pilot_and_body_as_a_very_long_push_of_the_mission_does(name, point):
-    keys = {"mission.duration": 13.0, "mission.log_interval": 0.05}
+@pytest.mark.parametrize(("name", "point", "duration"), [("hover", [0.0] * 3, 4.0), ("iris", [0.0, 0.4, 0.0], 13.0)])
+def test_a_constant_push_moves_pilot_and_body_as_a_very_long_push_of_the_mission_does(name, point, duration):
+    keys = {"mission.duration": duration, "mission.log_interval": 0.05}
     F = [0.6, -0.4, 0.2]
     long = tl.fly(load(name, pushes=[{"force": F, "time": 6.0, "sigma": 1e7, "point": point}], **keys))
     flight = stepped(tl.Simulation(load(name, pushes=[], **keys)), push=F, point=point).flight()
@@ -200,32 +191,6 @@ def test_what_is_given_acts_over_one_step_alone_and_beside_what_the_mission_push
     np.testing.assert_allclose(gained, [2.0 * sim.dt / mass, 0.0, 0.0], atol=2e-6)
     sim.step()
     np.testing.assert_array_equal(sim["push_force"], plain["push_force"][2001])
-
-
-def test_a_pilot_outside_flies_the_body_as_the_pilot_inside_does():
-    mission = load("paper", **{"mission.duration": 8.0, "mission.log_interval": 0.001})
-    flown, sim, pilot = tl.fly(mission), tl.Simulation(mission), tl.Pilot(mission)
-    for push in flown["push_force"][:-1]:
-        sim.step(thrusts=pilot.step(np.concatenate([sim.state, push])))
-    assert same(sim.flight(), flown)
-
-
-def test_real_rotors_follow_the_thrusts_given_with_their_delay_and_lag_and_within_their_limits():
-    sim = tl.Simulation(load("iris", **{"ground.effect": False}))
-    q = tl.Vehicle.from_settings(sim.mission.vehicle).quadrotors[0]
-    given, lag, late = np.full(8, 1.2 * q.thrust_limit), q.lag_up, round(sim.mission.actuators.delay / sim.dt)
-    for _ in range(300):
-        sim.step(thrusts=np.zeros(8))
-    assert sim["rotor_thrusts"].max() < 1e-6
-    assert late > 0
-    for k in range(-late, 60):
-        sim.step(thrusts=given)
-        if k < 0:
-            assert sim["rotor_thrusts"].max() < 1e-6
-            continue
-        squares = quad(lambda s, k=k: (1.0 - math.exp(-(k * sim.dt + s) / lag)) ** 2, 0.0, sim.dt, epsabs=1e-14)[0]
-        np.testing.assert_allclose(sim["rotor_thrusts"], q.thrust_limit * squares / sim.dt, rtol=1e-4)
-    np.testing.assert_array_equal(sim["rotor_commands"], given)
 
 
 def test_the_pilot_takes_over_again():
@@ -308,8 +273,7 @@ def test_past_the_end_of_its_mission_it_takes_no_step():
 BAD: list[tuple[dict[str, Any], str]] = [
     ({"push": [1.0, 2.0]}, r"push = \[1.0, 2.0\]: must be 3 finite numbers \(N, in world axes\)"),
     ({"push": 1.0}, r"push = 1.0: must be 3 finite"),
-    ({"push": [1.0, math.nan, 0.0]}, r"push = \[1.0, nan, 0.0\]: must be 3 finite"),
-    ({"push": np.array([1.0, math.inf, 0.0])}, r"push = .*inf.*: must be 3 finite"),
+    ({"push": np.array([1.0, math.nan, 0.0])}, r"push = .*nan.*: must be 3 finite"),
     ({"push": ["a", "b", "c"]}, r"push = .*: must be 3 finite"),
     ({"push": [[1.0], [2.0, 3.0], [4.0]]}, r"push = .*: must be 3 finite"),
     ({"push": [1.0j, 0.0, 0.0]}, r"push = .*: must be 3 finite"),
@@ -320,35 +284,65 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"point": [0.0, 1.0, 0.0]}, r"point = \[0.0, 1.0, 0.0\]: must come with a push"),
     ({"thrusts": np.zeros(4)}, r"thrusts = .*: must be 8 finite numbers \(N, one for each rotor\)"),
     ({"thrusts": [0.0] * 7 + [-math.inf]}, r"thrusts = .*: must be 8 finite"),
-    ({"thrusts": np.zeros((2, 4))}, r"thrusts = .*: must be 8 finite"),
 ]
 
 
-@pytest.mark.parametrize(("given", "words"), BAD)
-def test_what_cannot_be_added_to_a_step_is_refused_by_its_name_and_nothing_moves(given, words):
+def test_what_cannot_be_added_to_a_step_is_refused_by_its_name_and_nothing_moves():
     sim = tl.Simulation(load("hover"))
-    with pytest.raises(tl.InputError, match=words):
-        sim.step(**given)
-    assert sim.k == 0
+    for given, words in BAD:
+        with pytest.raises(tl.InputError, match=words):
+            sim.step(**given)
+        assert sim.k == 0
     sim.step()
     np.testing.assert_array_equal(sim["push_force"], [0.0, 0.0, 0.0])
 
 
-@pytest.mark.parametrize("seed", [-1, 1.5, "7", 10**19])
-def test_a_seed_that_cannot_be_one_is_refused(seed):
-    with pytest.raises(tl.InputError, match=r"seed = .*: must be a whole number from 0 to 1e\+18"):
-        tl.Simulation(load("hover")).reset(seed=seed)
-
-
-def test_other_things_that_cannot_be_asked_for_are_refused():
+def test_what_cannot_be_asked_for_is_refused():
     sim = tl.Simulation(load("hover"))
+    for seed in (-1, 1.5, "7", 10**19):
+        with pytest.raises(tl.InputError, match=r"seed = .*: must be a whole number from 0 to 1e\+18"):
+            sim.reset(seed=seed)
     with pytest.raises(tl.InputError, match="'position': no step has been taken yet"):
         sim["position"]
     with pytest.raises(KeyError, match="Did you mean 'position'"):
         sim["positon"]
     with pytest.raises(KeyError, match="no channel 'wind'"):
         sim.info("wind")
-    with pytest.raises(tl.InputError, match="unknown engine 'bullet'"):
-        tl.Simulation(load("hover"), engine="bullet")
     with pytest.raises(tl.InputError, match="nothing is logged yet"):
         tl.Simulation(load("hover"), engine="mujoco").flight()
+
+
+# the pilot alone
+
+
+def measurements(flight):
+    """What the pilot read at every step of a flight that was logged at every step (T, 16)."""
+    names = ("position", "velocity", "attitude", "rates", "push_force")
+    return np.ascontiguousarray(np.hstack([flight[name] for name in names]))
+
+
+def test_it_gives_the_thrusts_of_the_flight_to_the_last_bit_and_again_after_a_reset():
+    mission = tl.load_mission("flight-ready", {"mission.duration": 14.0, "mission.log_interval": 0.001})
+    flight, pilot = tl.fly(mission), tl.Pilot(mission)
+    assert np.abs(flight["push_force"]).max() > 1.0
+    for _ in range(2):
+        thrusts = np.array([pilot.step(x).copy() for x in measurements(flight)])
+        assert np.array_equal(thrusts, flight["rotor_thrusts"])
+        pilot.reset()
+
+
+def test_what_is_no_measurement_is_refused():
+    pilot = tl.Pilot(tl.load_mission("hover"))
+    for measurement in (np.zeros(15), np.zeros((1, 16)), np.zeros(16, dtype=np.float32), [0.0] * 16, None):
+        with pytest.raises(tl.InputError, match=r"must be a float64 array of shape \(16,\)"):
+            pilot.step(measurement)
+
+
+def test_by_hand_it_stops_its_rotors_for_good_when_asked():
+    pilot, level = tl.Pilot(tl.load_mission("hover", {"pilot.guidance": "interactive"})), np.zeros(16)
+    level[6] = 1.0
+    assert pilot.step(level).sum() > 0.0
+    assert not pilot.step(level, stop=True).any()
+    assert not pilot.step(level, lift=True).any()
+    pilot.reset()
+    assert pilot.step(level, enabled=False).sum() > 0.0

@@ -9,19 +9,12 @@ import pytest
 from ten_crashes import HELD, THROWN, crash_mission, crashed_in
 
 import tandemlift as tl
-from tandemlift.core.vector import Absent, Vec3, each
+from tandemlift.core.vector import Vec3, each
 from tandemlift.parts.contact.touches import (
     UNTOUCHED,
     PartContacts,
-    SurfaceContacts,
-    SurfaceTouches,
-    Touches,
     record_after,
-    touches_after,
 )
-from tandemlift.simulation.fly import _fly_compiled
-from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.touches import touches_of
 
 ON_ITS_BACK = THROWN | {"initial.euler": [0.3, 1.4, 0.5], "initial.rates": [0.8, 3.0, 0.0], "mission.name": "crash"}
 
@@ -39,30 +32,6 @@ def test_a_record_keeps_the_first_touch_the_greatest_force_and_the_impulse():
     r = record_after(contacts([20.0, 0.0, 0.0], [[9, 9, 9]] * 3), r, 1.01, 0.01)
     assert (r.time, r.part, tuple(r.place)) == (1.0, 3.0, (2.0, 3.0, 4.0))
     assert (r.force, r.impulse) == (20.0, pytest.approx(0.27))
-
-
-def test_of_parts_that_touch_equally_hard_the_first_counts():
-    r = record_after(contacts([0.0, 3.0, 3.0], [[0, 0, 0], [1, 1, 1], [2, 2, 2]]), UNTOUCHED, 0.0, 0.01)
-    assert (r.part, tuple(r.place)) == (2.0, (1.0, 1.0, 1.0))
-
-
-def test_a_struck_rotor_does_not_turn_again():
-    none = SurfaceTouches(UNTOUCHED, UNTOUCHED, Absent())
-    before = Touches(each(4)(1.0, 1.0, 1.0, 1.0), none, Absent())
-    struck = touches_after(
-        before, SurfaceContacts(contacts([0.0, 1.0, 0.0, 0.0]), Absent(), Absent()), Absent(), 0.0, 0.1
-    )
-    later = touches_after(struck, SurfaceContacts(contacts([0.0] * 4), Absent(), Absent()), Absent(), 1.0, 0.1)
-    assert tuple(struck.turning) == tuple(later.turning) == (1.0, 0.0, 1.0, 1.0)
-
-
-def test_a_flight_that_stands_flies_and_lands_touches_nothing():
-    mission = tl.load_mission(
-        "iris", {"mission.duration": 30.0, "phases.land_start": 15.0, "phases.land_duration": 8.0}
-    )
-    p = FlightPlan(mission)
-    (raw,) = _fly_compiled([p], p.steps // p.every + 1, p.every)
-    assert touches_of(raw.flight_state) == []
 
 
 def test_the_impulse_of_the_record_is_the_momentum_that_the_floor_gives():

@@ -1,11 +1,10 @@
 """Quadrotors that face another way than body x: their matrices, models and pictures."""
 
-from xml.etree import ElementTree
-
 import numpy as np
 import pytest
 
 import tandemlift as tl
+from tandemlift.engines.models.links import links_of
 from tandemlift.engines.models.visuals import vehicle_shapes
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.drawing.vehicle import skeleton
@@ -34,27 +33,10 @@ def test_a_quarter_of_a_turn_exchanges_its_axes():
     assert turned.allocation() == pytest.approx(swapped.allocation(), abs=1e-12)
 
 
-def test_an_eighth_of_a_turn_makes_a_plus_of_an_x():
-    eighth = {"layout": "x", "heading": -np.pi / 4.0}
-    turned = vehicle_of(**{f"vehicle.quadrotors.{i}.{key}": eighth[key] for i in range(2) for key in eighth})
-    plus = vehicle_of(**{f"vehicle.quadrotors.{i}.layout": "+" for i in range(2)})
-    assert turned.effect == pytest.approx(plus.effect, abs=1e-15)
-
-
-def test_models_have_its_whole_tensor(tmp_path):
-    mujoco = pytest.importorskip("mujoco")
-    from tandemlift.apps.export.write import export
-
-    mission, tensor = tl.load_mission("paper", TURNED), TURN @ np.diag(PRINCIPAL) @ TURN.T
-    body = mujoco.MjModel.from_xml_path(str(export(mission, tmp_path / "turned.xml"))).body("quadrotor1")
-    R = np.empty(9)
-    mujoco.mju_quat2Mat(R, body.iquat)
-    assert R.reshape(3, 3) @ np.diag(body.inertia) @ R.reshape(3, 3).T == pytest.approx(tensor, abs=1e-8)
-    link = ElementTree.parse(export(mission, tmp_path / "turned.sdf")).find(".//link[@name='quadrotor_1']")
-    written = {part.tag: float(part.text) for part in link.find("inertial/inertia")}
-    assert [written[name] for name in ("ixx", "iyy", "ixy")] == pytest.approx(
-        [tensor[0, 0], tensor[1, 1], tensor[0, 1]], abs=1e-9
-    )
+def test_its_link_in_models_has_its_whole_tensor():
+    mission = tl.load_mission("paper", TURNED)
+    link = links_of(mission, Vehicle.from_settings(mission.vehicle))[1]
+    assert link.inertia == pytest.approx(TURN @ np.diag(PRINCIPAL) @ TURN.T, abs=1e-12)
 
 
 def test_pictures_turn_it_with_its_rotors_and_feet():

@@ -1,51 +1,23 @@
-"""What ends a flight before its time: the impulse of a contact by its closed form, and the time after a crash."""
+"""What ends a flight before its time, and the time after a crash; `test_outcomes.py` has the impulse of a contact."""
 
-import numpy as np
 import pytest
 
 from tandemlift.core.phases import DIVERGED, FLIES, STRUCK
 from tandemlift.core.vector import ZERO, Quat, Vec3
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.simulation.loop.ending import (
-    FADING,
     STILL_TIME,
     Aftermath,
     CrashMemory,
-    Strike,
-    impulse_after,
     unless_crashed,
-    unless_struck,
     until_crash,
     with_aftermath,
 )
 
 DT = 1e-3
-STRIKE = Strike(weight=30.0, impulse=2.0)
 STILL = State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO)
 MOVING = STILL._replace(velocity=Vec3(0.1, 0.0, 0.0))
 SOUND = CrashMemory(0.0, 0.0, STILL, 0.0, 0.0)
-
-
-def impulses(force, seconds):
-    """The impulse after each step of a force(t) [N]."""
-    found = [0.0]
-    for k in range(round(seconds / DT)):
-        found.append(impulse_after(STRIKE, found[-1], Vec3(*force(k * DT)), DT))
-    return np.array(found[1:])
-
-
-@pytest.mark.parametrize(
-    ("force", "beyond"), [((3.0, -4.0, 42.0), 13.0), ((3.0, -4.0, 25.0), 5.0), ((0.0, 0.0, 30.0), 0.0)]
-)
-def test_a_force_beyond_the_weight_adds_up_and_fades(force, beyond):
-    """İ = F − I/τ: I = F τ (1 − exp(−t/τ)) while it acts, and then exp(−t/τ) of that."""
-    t = np.arange(1, 301) * DT
-    found = impulses(lambda t: force if t < 0.3 - 1e-9 else (0.0, 0.0, 0.0), 0.6)
-    wanted = beyond * FADING * (1.0 - np.exp(-t / FADING))
-    assert found[:300] == pytest.approx(wanted, rel=0.01)
-    assert found[300:] == pytest.approx(wanted[-1] * np.exp(-t / FADING), rel=0.02)
-    assert unless_struck(STRIKE, STRIKE.impulse, FLIES) == FLIES
-    assert unless_struck(STRIKE, STRIKE.impulse + 1e-9, FLIES) == STRUCK
 
 
 def flown(numbers, states, seconds, duration=5.0):

@@ -41,15 +41,6 @@ def test_a_sine_is_an_oscillation_of_its_frequency_and_amplitude(frequency, ampl
     assert found.amplitude == pytest.approx(amplitude, rel=(math.pi * frequency * STEP) ** 2)
 
 
-@pytest.mark.parametrize("axis", Swings._fields)
-def test_each_motion_is_watched_alone(axis):
-    memory, signal = NO_OSCILLATION, sine(2.0, 1.0)
-    for k in range(600):
-        t = k * STEP
-        memory = oscillation_step(LIMITS, memory, Swings(0.0, 0.0, 0.0, 0.0)._replace(**{axis: signal(t)}), 1.0, t)
-    assert [name for name, m in zip(Swings._fields, memory.swings, strict=True) if m.halves] == [axis]
-
-
 @pytest.mark.parametrize(
     "signal",
     [
@@ -76,11 +67,3 @@ def test_nothing_is_found_on_the_ground():
     for k in range(600):
         memory = oscillation_step(LIMITS, memory, Swings(*[sine(2.0, 1.0)(k * STEP)] * 4), 0.0, k * STEP)
     assert memory == NO_OSCILLATION
-
-
-@settings(max_examples=20, deadline=None)
-@given(st.floats(-0.299, 0.299), st.floats(0.0, 10.0))
-def test_below_the_levels_the_memory_stays(x, t):
-    swinging = watched(sine(2.0, 1.0), 1.0)
-    memory = NO_OSCILLATION._replace(swings=Swings(swinging, STILL, swinging, STILL))
-    assert oscillation_step(LIMITS, memory, Swings(x, -x, x, 0.49 * x), 1.0, t) == memory

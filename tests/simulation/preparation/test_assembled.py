@@ -9,16 +9,14 @@ from flights import different
 import tandemlift as tl
 from tandemlift.compiler.tracer import TraceError
 from tandemlift.core.caching import LastUsed
-from tandemlift.core.vector import ZERO, Absent, Vec3
+from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.simulation import plan
-from tandemlift.simulation.loop.sources import Delayed
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import compiled_flight
-from tandemlift.simulation.preparation.assemble import assemble, delay_lines_from
+from tandemlift.simulation.preparation.assemble import assemble
 from tandemlift.simulation.preparation.limits import finding_limits_from
 from tandemlift.simulation.preparation.loops import LoopWriter
-from tandemlift.simulation.preparation.memory import aligned
 from tandemlift.simulation.preparation.traced_step import check_layout
 
 
@@ -31,23 +29,6 @@ def test_the_estimators_know_the_payloads_place_and_the_drag_of_the_nominal_vehi
     assert np.array(known.payload) == pytest.approx(payload)
     assert known.drag_force == Vec3(0.1, 0.2, 0.3)
     assert known.drag_moment == Vec3(0.01, 0.02, 0.03)
-
-
-@pytest.mark.parametrize("place", range(4))
-def test_what_is_delayed_and_nothing_else_has_a_line(place):
-    lines = delay_lines_from((), np.eye(4, dtype=np.int64)[place] * 3)
-    there = [not isinstance(line, Absent) for line in lines[:4]]
-    assert there == [k == place for k in range(4)]
-    assert isinstance(lines[place], Delayed)
-    assert lines._fields[:4] == ("imu", "motion", "command", "view")
-    assert delay_lines_from((), np.zeros(4, np.int64)) == Absent()
-
-
-@pytest.mark.parametrize("size", [0, 1, 7, 100, 1001])
-def test_memory_begins_at_a_line_of_the_cache(size):
-    kept = [aligned(size) for _ in range(20)]  # of all alignments that NumPy gives
-    assert [part.ctypes.data % 64 for part in kept if size] == [0] * 20 * bool(size)
-    assert all(part.shape == (size,) and not part.any() for part in kept)
 
 
 def test_whose_law_changes_the_layout_is_named():
@@ -85,9 +66,8 @@ def test_a_push_has_the_slowest_axis_to_be_answered_in():
     assert push.time == pytest.approx(tl.load_mission("iris").findings.push_time + 1.5)
 
 
-@pytest.mark.parametrize(("mission", "largest"), [("paper", 100), ("iris", 500)])
-def test_a_step_in_pieces_has_the_bits_of_the_step_in_one(mission, largest, tmp_path, monkeypatch):
-    mission = tl.load_mission(mission, {"mission.duration": 4.0})
+def test_a_step_in_pieces_has_the_bits_of_the_step_in_one(tmp_path, monkeypatch):
+    mission, largest = tl.load_mission("iris", {"mission.duration": 4.0}), 500
     whole, writers = tl.fly(mission), []
 
     def in_pieces(traced, lanes, alike):

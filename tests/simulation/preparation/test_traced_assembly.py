@@ -17,7 +17,6 @@ from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.compiler.tracer.valued_graph import evaluated
 from tandemlift.core.types import flat, layout_and_numbers
 from tandemlift.core.vector import layout
-from tandemlift.missions import built_in, changed
 from tandemlift.simulation.pilot_api import pilot_at_start
 from tandemlift.simulation.preparation.assemble import assemble
 from tandemlift.simulation.preparation.traced_assembly import (
@@ -28,8 +27,10 @@ from tandemlift.simulation.preparation.traced_assembly import (
     with_values,
 )
 
-INTERACTIVE = ("hover", "zigzag", "iris", "doorway", "rotor-loss")
-MISSIONS = [*built_in(), *[f"{name}, interactive" for name in INTERACTIVE], "iris, other parts"]
+MISSIONS = [
+    *("hover", "four", "iris", "zigzag", "doorway", "two-x500", "crazyflie-stick"),
+    *("zigzag, interactive", "rotor-loss, interactive", "iris, other parts"),
+]
 ROUNDED = (
     r"(sensors|actuators|person)\.(joints\.|motion\.|additional\.\d+\.)?(delay|interval|first_sample)|"
     r"sensor_faults\.\d+\.(time|until)"
@@ -106,30 +107,19 @@ def test_every_number_is_an_input_or_fixed_for_a_reason(name):
     assert len(traced.keys) >= 0.95 * len(numbers)
 
 
-def test_a_key_of_the_graph_changes_that_number_of_a_mission():
-    mission = tl.load_mission("iris")
-    for key in ("vehicle.quadrotors.1.mass", "admittance.mass.0", "pushes.0.sigma", "controller.gains.xi.4"):
-        value = numbers_of_mission(mission)[key]
-        made = changed(mission, key, 1.25 * value)
-        assert numbers_of_mission(made)[key] == 1.25 * value
-        assert with_numbers(mission, {key: 1.25 * value}) == made
-
-
-@pytest.mark.parametrize("name", ["hover", "iris, other parts", "rotor-loss, interactive", "zigzag"])
+@pytest.mark.parametrize("name", ["iris, other parts", "rotor-loss, interactive", "zigzag"])
 def test_the_graph_at_other_numbers_is_a_fresh_trace_to_the_last_bit(name):
     traced = trace_of(name)
-    prepare = machine_code(traced)
-    for seed in range(2):
-        numbers = varied(traced, seed)
-        fresh = trace_assembly(with_numbers(mission_of(name), numbers))
-        assert fresh.keys == traced.keys
-        wanted = values_of(fresh, fresh.graph.values)
-        made = prepare(list(numbers.values()))
-        assert [bool(truth) for truth in made[wanted.size :]] == [guard.holds for guard in traced.guards]
-        assert np.array_equal(bits(made[: wanted.size]), bits(wanted))
-        again = values_of(traced, evaluated(traced.graph, list(numbers.values())))
-        assert np.array_equal(bits(again), bits(wanted))
-        assert np.mean(wanted != values_of(traced, traced.graph.values)) > 0.3  # most of what is no start value
+    numbers = varied(traced, 0)
+    fresh = trace_assembly(with_numbers(mission_of(name), numbers))
+    assert fresh.keys == traced.keys
+    wanted = values_of(fresh, fresh.graph.values)
+    made = machine_code(traced)(list(numbers.values()))
+    assert [bool(truth) for truth in made[wanted.size :]] == [guard.holds for guard in traced.guards]
+    assert np.array_equal(bits(made[: wanted.size]), bits(wanted))
+    again = values_of(traced, evaluated(traced.graph, list(numbers.values())))
+    assert np.array_equal(bits(again), bits(wanted))
+    assert np.mean(wanted != values_of(traced, traced.graph.values)) > 0.3  # most of what is no start value
 
 
 @pytest.mark.parametrize(
@@ -178,14 +168,11 @@ def test_the_pilot_alone_is_traced_too():
 
 
 def test_a_flight_that_is_not_fused_is_close_to_one_that_is():
-    for name, duration in (("hover", 2.0), ("iris", 1.0)):
-        one, other = (
-            tl.fly(tl.load_mission(name, {"mission.duration": duration, "mission.fma": fused}))
-            for fused in (True, False)
-        )
-        for channel in one:
-            if np.asarray(one[channel]).dtype == float:
-                assert np.allclose(one[channel], other[channel], rtol=0.0, atol=1e-9, equal_nan=True), channel
+    one, other = (
+        tl.fly(tl.load_mission("iris", {"mission.duration": 1.0, "mission.fma": fused})) for fused in (True, False)
+    )
+    for channel in one:
+        assert np.allclose(one[channel], other[channel], rtol=0.0, atol=1e-9, equal_nan=True), channel
 
 
 def test_nothing_of_a_trace_stays_in_a_cache():
