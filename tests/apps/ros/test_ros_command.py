@@ -17,7 +17,7 @@ from reference_tables import topics
 from repository import ROOT
 from ros_trial import GUIDED, Middleware
 
-from tandemlift.apps.cli.main import cli, main
+from tandemlift.apps.cli.main import cli
 from tandemlift.apps.live.session.pacing import MOST_BEHIND
 from tandemlift.apps.live.session.session import Session
 from tandemlift.apps.ros.dds_types import PACKAGES
@@ -238,13 +238,10 @@ def test_a_rclpy_that_cannot_be_used_is_named_and_dds_taken(machine, monkeypatch
     assert why in result.output
 
 
-def test_without_any_ros_the_command_that_installs_one_is_named(machine, monkeypatch, capsys):
+def test_without_any_ros_the_command_that_installs_one_is_named(machine, run):
     machine(rospy=False, dds=False)
-    monkeypatch.setattr(sys, "argv", ["tandemlift", "ros", "hover"])
-    with pytest.raises(SystemExit) as ended:
-        main()
-    assert ended.value.code == 2
-    printed = capsys.readouterr().err
+    code, _, printed = run("ros", "hover")
+    assert code == 2
     assert "error: no ROS is found" in printed
     assert "pip install 'tandemlift[ros2]'" in printed
     assert "apt-get install python3-rospy" in printed
