@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from chromium import MS, beam_pixels, panel
+from chromium import beam_pixels, new_page, panel
 from patience import until
 
 import tandemlift as tl
@@ -62,14 +62,9 @@ TEXTS = """() => {
 
 
 def phone(browser, address, size, **options):
-    """A page on a phone of a size, and its errors."""
-    context = browser.new_context(
-        viewport={"width": size[0], "height": size[1]}, has_touch=True, is_mobile=True, **options
-    )
-    page = context.new_page()
-    page.set_default_timeout(MS)
-    page.wrong = []
-    page.on("pageerror", lambda error: page.wrong.append(str(error)))
+    """A page on a phone of a size."""
+    size = {"width": size[0], "height": size[1]}
+    page = new_page(browser, size, has_touch=True, is_mobile=True, **options)
     page.goto(address)
     page.wait_for_selector("#surface canvas")
     return page
@@ -185,8 +180,7 @@ def test_the_labels_of_plots_are_whole_at_both_ends(browser, tmp_path):
     html.write_text(
         replay_html(replace(flight, time=flight.time + 3000.0, channels=flight.channels | far), page_files()), "utf-8"
     )
-    page = browser.new_context(viewport={"width": 760, "height": 600}).new_page()
-    page.set_default_timeout(MS)
+    page = new_page(browser, {"width": 760, "height": 600})
     page.goto(html.as_uri())
     page.wait_for_selector(".plot canvas")
     page.get_by_title("Play or pause (P)").click()

@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from chromium import launched
+from chromium import launched, new_page
 from patience import until
 
 import tandemlift as tl
@@ -22,7 +22,7 @@ def test_a_widget_flies_in_the_cell_of_a_notebook(tmp_path, hover):
     file, text = tmp_path / "cell.html", json.dumps(state).replace("</", "<\\/")
     file.write_text(HOST.replace("$esm", json.dumps(widget.get_state()["_esm"])).replace("$state", text), "utf-8")
     with launched() as browser:
-        page = browser.new_page()
+        page = new_page(browser)
         page.goto(file.as_uri())
         frame = page.frame_locator("iframe[title=tandemlift]")
         until(lambda: frame.locator("#notices .refused, canvas").first.is_visible(), "the page")

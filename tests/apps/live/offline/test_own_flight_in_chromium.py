@@ -1,10 +1,8 @@
 """The page that flies by itself in Chromium, from disk: pulled by a real mouse, saved, and flown again in Python."""
 
-import time
-
 import numpy as np
 import pytest
-from chromium import SIZE, middle_of_the_beam, opened, panel, save, seconds_flown
+from chromium import flown_on, has_said, middle_of_the_beam, new_page, opened, panel, pushed, save, seconds_flown
 from click.testing import CliRunner
 from patience import until
 from repository import ROOT
@@ -22,14 +20,12 @@ def pull_and_push(page):
     x, y = middle_of_the_beam(page)
     page.mouse.move(x, y)
     page.mouse.down()
-    for i in range(20):
-        page.mouse.move(x + 4.0 * i, y - 2.0 * i)
-        time.sleep(0.02)
+    for i in range(15):
+        page.mouse.move(x + 5.0 * i, y - 2.5 * i)
+        flown_on(page, 0.1)  # the hand is recorded once for each step
     until(lambda: page.locator("#surface.pulling").count() == 1, "the page holds the beam")
     page.mouse.up()
-    page.keyboard.down("KeyD")
-    time.sleep(0.6)
-    page.keyboard.up("KeyD")
+    pushed(page)
 
 
 def assert_flown_again_to_the_last_bit(folder):
@@ -86,7 +82,7 @@ def test_an_own_mission_with_an_own_controller_flies_from_the_file_that_the_comm
 
 def test_a_link_is_read_and_written_and_the_menu_flies_another_flight(browser, address):
     page = opened(browser, f"{address}#mission=hover&admittance.mass=2.5&admittance.damping=99")
-    until(lambda: "admittance.damping = 99:" in page.inner_text("#notices"), "a refused setting")
+    until(lambda: has_said(page, "admittance.damping = 99:"), "a refused setting")
     assert float(panel(page, "admittance.mass").locator("input[type=number]").first.input_value()) == 2.5
     page.click("summary:has-text('This page')")
     page.click("#copy-link")
@@ -101,7 +97,7 @@ def test_a_link_is_read_and_written_and_the_menu_flies_another_flight(browser, a
 def test_an_edited_page_says_that_its_flight_is_damaged(browser, hover, tmp_path):
     text = pages.offline_html([hover._replace(sha256="0" * 64)], page_files())
     (tmp_path / "edited.html").write_text(text, "utf-8")
-    page = browser.new_context(viewport=SIZE).new_page()
+    page = new_page(browser)
     page.goto((tmp_path / "edited.html").as_uri())
     until(lambda: "its checksum is wrong" in page.inner_text("#hint"), "the reason")
     page.close()
