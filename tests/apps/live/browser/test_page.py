@@ -1,6 +1,5 @@
 """The page as a whole: its sizes, a replay from disk, and what it shows before the flight begins."""
 
-import pytest
 import slow_compiler
 from chromium import Live, middle_of_the_beam, new_page, opened
 from patience import until
@@ -12,12 +11,10 @@ from tandemlift.apps.live.replay import replay_html
 BUTTONS = ("Lift", "Land", "Stop", "Pause", "Save")
 
 
-@pytest.mark.parametrize("size", [(1280, 800), (800, 450)])  # phones: `test_looks.py`
-def test_nothing_on_the_page_is_cut_off_at_any_size(browser, live, size):
+def test_nothing_on_the_page_is_cut_off_at_any_size(browser, live):
     page = opened(browser, live.address)
-    page.set_viewport_size({"width": size[0], "height": size[1]})
 
-    def cut_off():
+    def cut_off(size):
         boxes = {n: page.get_by_role("button", name=n).first.bounding_box() for n in BUTTONS}
         inside = [
             name
@@ -27,7 +24,9 @@ def test_nothing_on_the_page_is_cut_off_at_any_size(browser, live, size):
         wide = page.evaluate("document.documentElement.scrollWidth") > size[0]
         return set(BUTTONS) - set(inside) | ({"the page"} if wide else set())
 
-    until(lambda: not cut_off(), "a page of that size")
+    for size in ((1280, 800), (800, 450)):  # phones: `test_looks.py`
+        page.set_viewport_size({"width": size[0], "height": size[1]})
+        until(lambda size=size: not cut_off(size), "a page of that size")
     page.context.close()
 
 

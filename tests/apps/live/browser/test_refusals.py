@@ -53,6 +53,7 @@ def test_a_push_that_is_not_followed_says_so_at_the_hand(page, live):
 
 def test_a_crash_is_marked_told_and_left_by_beginning_again(page, live):
     stopped(page)  # it falls from a metre
+    live.wait_status(lambda status: status["phase"] in ("stopped", "crashed"), "stopped rotors")
     until(lambda: "The vehicle has crashed" in told(page, "#ended"), "a crash")
     assert live.status["ending"]["text"] in told(page, "#ended")
     assert re.search(r": hit the floor: \d+(\.\d+)? of 7 N s$", live.status["ending"]["text"])

@@ -50,6 +50,8 @@ def test_a_recording_made_in_firefox_flies_again_in_python_to_the_last_bit(hover
         until(lambda: (browser.value(flown) or 0.0) > 6.0, "a flight at its height")
         browser.drag(until(lambda: beam_on(browser), "a beam"), (80.0, -40.0))
         until(lambda: browser.value("document.querySelectorAll('#surface.pulling').length") == 1, "a hold")
+        held_at = browser.value(flown)
+        until(lambda: browser.value(flown) > held_at + 0.2, "a flight with it")
         browser.drop()
         browser.value(KEEP_FILES)
         browser.value(SAVE)
