@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from chromium import flown_on, has_said, middle_of_the_beam, new_page, opened, panel, pushed, save, seconds_flown
 from click.testing import CliRunner
+from own_flight import check_flies_again
 from patience import until
 from repository import ROOT
 
@@ -11,8 +12,6 @@ import tandemlift as tl
 from tandemlift.apps.cli.main import cli
 from tandemlift.apps.live import pages
 from tandemlift.apps.live.page_files import page_files
-from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.stepping import fly_stepwise
 
 
 def pull_and_push(page):
@@ -28,14 +27,6 @@ def pull_and_push(page):
     pushed(page)
 
 
-def assert_flown_again_to_the_last_bit(folder):
-    """The recording in a folder, flown by Python, ends as the page's flight did."""
-    plan = FlightPlan(tl.load_mission(folder / "recorded.toml"))
-    again = fly_stepwise(plan, plan.steps + 1, 1)
-    last = np.load(folder / "last_sample.npy")
-    np.testing.assert_array_equal(again.last.view(np.int64), last.view(np.int64))
-
-
 def test_a_recording_made_by_a_real_mouse_flies_again_in_python_to_the_last_bit(browser, address, tmp_path):
     page = opened(browser, address)
     until(lambda: seconds_flown(page) > 6.0, "a flight at its height")
@@ -47,7 +38,7 @@ def test_a_recording_made_by_a_real_mouse_flies_again_in_python_to_the_last_bit(
     assert save(page, tmp_path) == "by-hand.zip"
     assert page.wrong == []
     page.close()
-    assert_flown_again_to_the_last_bit(tmp_path)
+    check_flies_again(tmp_path / "recorded.toml", np.load(tmp_path / "last_sample.npy"))
     hand = np.load(tmp_path / "hand.npz")["hand"]
     assert hand[:, 0].max() == 1.0
     assert len(np.unique(hand[:, 4:7], axis=0)) > 10  # targets
@@ -77,7 +68,7 @@ def test_an_own_mission_with_an_own_controller_flies_from_the_file_that_the_comm
     recorded = tl.load_mission(tmp_path / "recorded.toml")
     assert recorded.controller.name == "my-pd"
     assert [(change.key, change.value[0]) for change in recorded.changes] == [("controller.stiffness", 5.0)]
-    assert_flown_again_to_the_last_bit(tmp_path)
+    check_flies_again(tmp_path / "recorded.toml", np.load(tmp_path / "last_sample.npy"))
 
 
 def test_a_link_is_read_and_written_and_the_menu_flies_another_flight(browser, address):

@@ -171,7 +171,7 @@ def test_requests_are_refused_for_the_same_reasons_from_the_ground_to_the_air_an
         (land, 0.3),
         (lift, 1.0),
         (GRAB, 1.0),
-        ({"type": "release"}, 5.0),
+        ({"type": "release"}, 2.0),
         (lift, 0.3),
         ({"type": "force", "force": [0.2, 0.0, 0.0], "point": [0.0, 0.0, 0.0]}, 0.6),
         ({"type": "force", "force": [0.0, 0.0, 0.0], "point": [0.0, 0.0, 0.0]}, 0.1),
@@ -196,7 +196,7 @@ def test_requests_are_refused_for_the_same_reasons_from_the_ground_to_the_air_an
 
 def test_a_crash_ends_both_with_the_same_words_at_the_same_place_until_both_begin_again(by_hand):
     session, flight = by_hand
-    check_same(session, flight, {"type": "ask", "what": "lift"}, 5.5)
+    check_same(session, flight, {"type": "ask", "what": "lift"}, 3.0)
     strong_push = {"type": "force", "force": [4.0, 0.0, 0.0], "point": [0.0, 0.0, 0.0]}
     check_same(session, flight, strong_push, 1.5)
     status = flight.status()
@@ -215,7 +215,7 @@ def test_a_crash_ends_both_with_the_same_words_at_the_same_place_until_both_begi
 
 def test_a_fall_says_in_both_what_was_hit_and_how_hard_in_three_digits(by_hand):
     session, flight = by_hand
-    for what, seconds in (("lift", 5.5), ("stop", 1.5)):
+    for what, seconds in (("lift", 3.0), ("stop", 1.5)):
         check_same(session, flight, {"type": "ask", "what": what}, seconds)
     assert re.search(r"hit the floor: \d+(\.\d+)? of 7 N s$", flight.status()["ending"]["text"])
 
