@@ -70,13 +70,6 @@ def phone(browser, address, size, **options):
     return page
 
 
-@pytest.fixture(scope="module")
-def replay(tmp_path_factory):
-    html = tmp_path_factory.mktemp("replay") / "replay.html"
-    html.write_text(replay_html(tl.fly(tl.load_mission("one-push")), page_files()), "utf-8")
-    return html.as_uri()
-
-
 def faults(page, size):
     """What is cut off, covers something else, or is too small for a finger."""
     shapes, (width, height) = page.evaluate(SHAPES), size

@@ -4,10 +4,6 @@ import slow_compiler
 from chromium import Live, middle_of_the_beam, new_page, opened
 from patience import until
 
-import tandemlift as tl
-from tandemlift.apps.live.page_files import page_files
-from tandemlift.apps.live.replay import replay_html
-
 BUTTONS = ("Lift", "Land", "Stop", "Pause", "Save")
 
 
@@ -30,14 +26,11 @@ def test_nothing_on_the_page_is_cut_off_at_any_size(browser, live):
     page.context.close()
 
 
-def test_a_replay_opens_from_disk_with_the_network_off(browser, tmp_path):
-    flight = tl.fly(tl.load_mission("one-push"))
-    html = tmp_path / "replay.html"
-    html.write_text(replay_html(flight, page_files()), "utf-8")
+def test_a_replay_opens_from_disk_with_the_network_off(browser, replay):
     asked = []
     page = new_page(browser, offline=True)
     page.on("request", lambda request: asked.append(request.url))
-    page.goto(html.as_uri())
+    page.goto(replay)
     page.wait_for_selector("#surface canvas")
     middle_of_the_beam(page)
     page.get_by_title("Play or pause (P)").click()
