@@ -8,7 +8,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 import zipfile
 from pathlib import Path
 
@@ -48,6 +47,13 @@ DROP = """([name, text]) => {
 }"""
 SIZE = {"width": 800, "height": 450}
 MS = 1e3 * PATIENCE
+REMEMBER = """
+window.told = new Set(); // texts that the page shows for some seconds only
+new MutationObserver(() => {
+  for (const one of document.querySelectorAll("#notices p, #refusal, .label.refusal"))
+    if (one.checkVisibility()) window.told.add(one.textContent);
+}).observe(document, { attributes: true, characterData: true, childList: true, subtree: true });
+"""
 
 
 class Live:
@@ -130,13 +136,25 @@ def launched():
         one.close()
 
 
-def opened(browser, address, prepare=lambda page: None, **options):
-    """A page, and the list of its errors; `prepare(page)` runs before it opens the address."""
-    page = browser.new_context(viewport=SIZE, **options).new_page()
+def new_page(browser, size=SIZE, **options):
+    """An empty page with the timeouts of tests, the list of its errors, and a memory of what it says."""
+    page = browser.new_context(viewport=size, **options).new_page()
     page.set_default_timeout(MS)
-    prepare(page)
+    page.add_init_script(REMEMBER)
     page.wrong = []
     page.on("pageerror", lambda error: page.wrong.append(str(error)))
+    return page
+
+
+def has_said(page, words):
+    """Whether the page has shown words in a notice or as a refusal, be it for some seconds only."""
+    return any(words in text for text in page.evaluate("[...window.told]"))
+
+
+def opened(browser, address, prepare=lambda page: None, **options):
+    """A page of an address; `prepare(page)` runs before it opens."""
+    page = new_page(browser, **options)
+    prepare(page)
     page.on("console", lambda said: page.wrong.append(said.text) if said.type == "error" else None)
     page.goto(address)
     page.wait_for_selector("#surface canvas")
@@ -190,11 +208,17 @@ def panel(page, key):
     return box
 
 
-def pushed(page, seconds=0.5):
-    """Push by a key."""
-    page.keyboard.down("KeyD")
-    time.sleep(seconds)
-    page.keyboard.up("KeyD")
+def flown_on(page, seconds):
+    """Let some seconds of the page's flight pass, however long they take."""
+    end = seconds_flown(page) + seconds
+    until(lambda: seconds_flown(page) >= end, f"{seconds:g} s of flight")
+
+
+def pushed(page, seconds=0.5, key="KeyD"):
+    """Push by a key for some seconds of the page's flight."""
+    page.keyboard.down(key)
+    flown_on(page, seconds)
+    page.keyboard.up(key)
 
 
 def resized(page, size):

@@ -1,4 +1,4 @@
-"""A server with the timeouts of tests: on a busy machine a viewer may be silent for longer than a page.
+"""A server with the timeouts of tests: on a busy machine a viewer is silent for longer, and answers pings later.
 
 As a program: `tandemlift` with such a server.
 """
@@ -14,9 +14,10 @@ from tandemlift.apps.live import server, viewers
 
 
 def make_patient(put: Callable[[Any, str, Any], None] = setattr) -> None:
-    """Disable disconnection after silence or unanswered pings; `put` is `setattr` or its like."""
+    """Let pages keep beam and turn although they are silent; `put` is `setattr` or its like."""
     serve = server.serve
     put(viewers, "SILENT", PATIENCE)
+    put(viewers, "IDLE", PATIENCE)
     put(server, "serve", lambda *args, **options: serve(*args, **{**options, "ping_timeout": None}))
 
 

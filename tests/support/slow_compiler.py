@@ -6,6 +6,7 @@ As a program: `tandemlift`, whose compiler waits until the file named by COMPILE
 from __future__ import annotations
 
 import os
+import sys
 import time
 from pathlib import Path
 
@@ -29,4 +30,8 @@ def make_slow() -> None:
 
 if __name__ == "__main__":
     make_slow()
+    if "live" in sys.argv:
+        from patient_server import make_patient
+
+        make_patient()
     main()

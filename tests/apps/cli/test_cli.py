@@ -8,39 +8,12 @@ import pytest
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli
 from tandemlift.missions import built_in, load_mission
-from tandemlift.pictures.figures.registry import figures
 
-METRICS = [
-    "position_rmse_m",
-    "position_rmse_after_10s_m",
-    "position_max_error_m",
-    "position_max_error_after_10s_m",
-    "attitude_rmse_rad",
-    "velocity_max_error_after_10s_m_s",
-    "max_tilt_after_10s_rad",
-    "final_position_m",
-    "final_reference_m",
-    "thrust_min_after_10s_n",
-    "thrust_max_after_10s_n",
-    "moment_max_abs_after_10s_n_m",
-    "command_at_start",
-    "human_impulse_n_s",
-    "human_work_j",
-    "rotor_saturated_share",
-    "push_triggers_after_10s",
-    "steps",
-    "wall_s",
-    "events",
-    "outcome",
-    "findings",
-    "failure",
-]
 OURS = {"mission.toml", "flight.npz", "findings.json", "figures", "report.html"}
 OURS |= {f"metrics.{kind}" for kind in ("json", "csv", "tex")}
 ALWAYS = ("reference", "path", "tracking", "inputs", "interaction", "joints")
 DRAWN = {f"{name}.{kind}" for name in ALWAYS for kind in ("png", "pdf")}
 SHORT = ("--no-figures", "--set", "mission.duration=0.5")
-WILD = ("lambda_1=0", "lambda_2=0", "xi=[4,2,11,0.1,0.1,0.1]")
 
 
 def check_refused(outcome: tuple[int, str, str]) -> str:
@@ -52,10 +25,7 @@ def check_refused(outcome: tuple[int, str, str]) -> str:
 
 
 def test_the_help_of_every_verb_says_what_it_does(run):
-    code, out, _ = run("--help")
-    assert code == 0
     for verb in cli.commands:
-        assert f"\n  {verb} " in out
         code, own, _ = run(verb, "--help")
         assert code == 0
         assert f"Usage: tandemlift {verb}" in own
@@ -81,16 +51,6 @@ def test_the_help_of_run_names_what_is_written_and_the_exit_codes(run):
         "out/NAME",
     ):
         assert word in out
-
-
-def test_without_a_verb_the_help_is_shown(run):
-    code, out, err = run()
-    assert code == 2
-    assert "tandemlift run paper" in out + err
-
-
-def test_the_version_is_told(run):
-    assert run("--version") == (0, f"tandemlift, version {tl.__version__}\n", "")
 
 
 @pytest.mark.parametrize(
@@ -128,17 +88,14 @@ def test_bad_input_is_refused_with_a_hint_and_nothing_is_written(arguments, piec
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize(("verb", "word"), [("missions", "paper"), ("controllers", "nftsmc"), ("engines", "compiled")])
-def test_what_there_is_is_listed_a_line_each(verb, word, run):
+@pytest.mark.parametrize(
+    ("verb", "names"), [("missions", built_in()), ("controllers", ["nftsmc"]), ("engines", ["compiled"])]
+)
+def test_what_there_is_is_listed_a_line_each(verb, names, run):
     code, out, err = run(verb)
     assert (code, err) == (0, "")
-    lines = out.splitlines()
-    assert any(line.startswith(f"{word} ") for line in lines)
-    assert all(len(line.split(maxsplit=1)) == 2 for line in lines)
-
-
-def test_every_built_in_mission_is_listed(run):
-    assert [line.split()[0] for line in run("missions")[1].splitlines()] == list(built_in())
+    lines = [line.split(maxsplit=1) for line in out.splitlines()]
+    assert {name for name, _ in lines} >= set(names)
 
 
 def test_the_file_of_a_mission_is_printed_and_is_that_mission(run, tmp_path):
@@ -161,13 +118,11 @@ def test_compile_takes_a_controller_as_run_does(run, tmp_path):
 
 
 def test_a_run_writes_its_results_to_out_name(run, tmp_path):
-    code, out, _ = run("run", "hover", "--set", "mission.duration=1", "--set", "mission.name=mine")
+    code, out, _ = run("run", "hover", *SHORT, "--set", "mission.name=mine")
     folder = tmp_path / "out" / "mine"
     assert code == 0
-    assert {path.name for path in folder.iterdir()} == OURS
-    assert {path.name for path in (folder / "figures").iterdir()} == DRAWN
-    assert {f"{name}.{kind}" for name in figures() for kind in ("png", "pdf")} >= DRAWN
-    assert "mine: flying; 1000 steps" in out
+    assert {path.name for path in folder.iterdir()} == OURS - {"figures"}
+    assert "mine: flying; 500 steps" in out
     assert str(Path("out") / "mine" / "report.html") in out
     assert "http-equiv" not in (folder / "report.html").read_text("utf-8")
 
@@ -179,7 +134,6 @@ def test_the_results_are_those_of_the_flight(run, tmp_path):
     assert mission == load_mission("one-push", {"mission.duration": 0.5})
     text = (tmp_path / "here" / "metrics.json").read_text("utf-8")
     metrics = json.loads(text, parse_constant=pytest.fail)
-    assert sorted(metrics) == sorted(METRICS)
     assert metrics == flight.metrics()
     assert metrics["position_rmse_after_10s_m"] is None
     again = tl.fly(mission)
@@ -248,24 +202,6 @@ def test_a_flight_that_fails_leaves_no_folder_behind(run, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["bad.py"]
 
 
-def test_a_flight_that_diverges_writes_everything_until_then_and_ends_with_3(run, tmp_path):
-    settings = [part for gain in WILD for part in ("--set", f"controller.gains.{gain}")]
-    code, out, err = run("run", "paper", "--no-figures", *settings)
-    assert code == 3
-    assert err.splitlines()[-1].startswith("paper: diverged at 31.2")
-    assert "distance from the origin [m] = 1000" in err
-    assert "Traceback" not in err
-    folder = tmp_path / "out" / "paper"
-    assert {path.name for path in folder.iterdir()} >= OURS - {"figures"}
-    metrics = json.loads((folder / "metrics.json").read_text(), parse_constant=pytest.fail)
-    assert sorted(metrics) == sorted(METRICS)
-    assert metrics["final_reference_m"] is None
-    flight = tl.Flight.load(folder / "flight.npz")
-    assert flight.ending
-    assert metrics["steps"] == round(flight.ending.time / 0.001)
-    assert f"paper: diverged; {metrics['steps']} steps" in out
-
-
 def test_a_flight_that_crashes_ends_there_and_after_it_on_request(run):
     upset = ("--set", "disturbance.moment=[0,9,0]", "--set", "mission.duration=12", "--no-figures")
     code, out, err = run("run", "iris", *upset)
@@ -288,14 +224,17 @@ def test_a_lift_that_never_happens_is_a_failure(run):
     assert "iris: not-lifted: a lift of the mission" in err
 
 
-def test_a_flight_that_is_lost_in_its_first_step_is_written_too(run, tmp_path):
-    code, _, err = run("run", "hover", "--set", "initial.rates=1e200")
+def test_a_flight_that_diverges_in_its_first_step_is_written_and_drawn_as_any(run, tmp_path):
+    code, out, err = run("run", "hover", "--set", "initial.rates=1e200")
     assert code == 3
     assert "hover: diverged at 0.001 s: " in err
+    assert "Traceback" not in err
+    assert "hover: diverged; 1 steps" in out
     metrics = json.loads((tmp_path / "out" / "hover" / "metrics.json").read_text(), parse_constant=pytest.fail)
     assert metrics["steps"] == 1
     assert metrics["final_position_m"] is None or len(metrics["final_position_m"]) == 3
     assert {path.name for path in (tmp_path / "out" / "hover").iterdir()} == OURS
+    assert {path.name for path in (tmp_path / "out" / "hover" / "figures").iterdir()} == DRAWN
 
 
 def test_a_warning_is_one_line_told_once(run):

@@ -37,16 +37,16 @@ def test_a_finding_is_a_line_on_standard_error_and_an_entry_of_a_file(run, tmp_p
     assert all(finding.text in (tmp_path / "out" / "report.html").read_text() for finding in flight.findings)
 
 
-def test_strict_exits_with_3_if_there_are_findings_and_only_then(run):
-    assert run(*PLAIN, "--strict").exit_code == 3
+def test_strict_exits_with_0_where_all_findings_are_ignored(run):
     ignored = run(*PLAIN, "--strict", "--set", 'findings.ignore=["off-track"]')
     assert ignored.exit_code == 0, ignored.output
     assert "off-track" not in ignored.stderr
 
 
-def test_lines_are_coloured_on_a_terminal_unless_no_color_is_set(run, monkeypatch):
-    coloured = run(*PLAIN, color=True).stderr
-    assert "\033[33m" in coloured
+def test_strict_exits_with_3_and_lines_are_coloured_on_a_terminal_unless_no_color_is_set(run, monkeypatch):
+    coloured = run(*PLAIN, "--strict", color=True)
+    assert coloured.exit_code == 3
+    assert "\033[33m" in coloured.stderr
     monkeypatch.setenv("NO_COLOR", "1")
     assert "\033[" not in run(*PLAIN, color=True).stderr
     monkeypatch.delenv("NO_COLOR")

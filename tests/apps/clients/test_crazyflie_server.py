@@ -5,7 +5,7 @@ import struct
 
 import numpy as np
 import pytest
-from patience import until
+from patience import PATIENCE, until
 
 import tandemlift as tl
 from tandemlift.apps.clients.crazyflie import server as crazyflie_server
@@ -14,6 +14,12 @@ from tandemlift.apps.clients.flight import PILOT_ASIDE, RealTimeFlight, quadroto
 from tandemlift.core.files import parse_setting
 
 HOST = "127.0.0.1"
+
+
+@pytest.fixture(autouse=True)
+def _patient(monkeypatch):
+    """A client that is silent, as on a busy machine, is not taken for one that is gone."""
+    monkeypatch.setattr(crazyflie_server, "SILENT", PATIENCE)
 
 
 @pytest.fixture
@@ -30,7 +36,7 @@ def client():
 
     def make():
         made.append(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
-        made[-1].settimeout(60.0)
+        made[-1].settimeout(PATIENCE)
         return made[-1]
 
     yield make
@@ -58,16 +64,16 @@ def test_a_second_client_is_answered_only_when_it_scans_until_the_first_is_silen
     assert second.recv(100) == b"\xfc\0yours"  # what it asked meanwhile
 
 
-def test_ten_thousand_datagrams_of_any_content_leave_it_answering(served, client):
+def test_thousands_of_datagrams_of_any_content_leave_it_answering(served, client):
     rng, one, (server, (address, _)) = np.random.default_rng(6), client(), served
-    for k in range(10_000):
+    for k in range(2_000):
         one.sendto(rng.bytes(int(rng.integers(0, 1500))), address)
-        if k % 100 == 99:  # so that none is lost on the way
+        if k % 25 == 24:  # so that none is lost on the way, although the server gets no processor
             answer, echo = b"", b"\xfc" + str(k).encode()
             one.sendto(echo, address)
             while answer != echo:
                 answer = one.recv(100)
-    assert server.devices[0].refused > 1_000
+    assert server.devices[0].refused > 200
 
 
 def test_a_port_in_use_is_refused_with_what_to_do(client):

@@ -252,8 +252,7 @@ def packets(kind, rng):
     payload = bytearray(rng.randbytes(size))
     if kind == "for us":
         for name in {"target_system", "target_component"} & set(made.fieldnames):
-            offset = struct.calcsize("<" + made.unpacker.format.lstrip("<")) and _offset(made, name)
-            payload[offset] = rng.randrange(2)
+            payload[_offset(made, name)] = rng.randrange(2)
     message = mavlink.MAVLink_message(made.id, made.msgname)
     packet = bytes(message._pack(mav, made.crc_extra, bytes(payload)))
     if kind == "cut":
@@ -270,19 +269,15 @@ def _offset(made, name):
     return struct.calcsize("<" + "".join(fields[: made.ordered_fieldnames.index(name)]))
 
 
-@pytest.mark.parametrize("kind", ["noise", "cut", "flipped", "random", "for us"])
-def test_ten_thousand_hostile_packets_do_not_end_a_flight(world, kind):
+def test_thousands_of_hostile_packets_of_each_kind_do_not_end_a_flight(world):
     world.take_off()
-    rng = random.Random(kind)
+    rng = random.Random(5)
     client = world.clients[0]
-
-    def flood():
-        for _ in range(80):
-            client.write(packets(kind, rng))
-
-    for _ in range(125):
-        flood()
-        world.fly(0.02, 0.02)
+    for kind in ("noise", "cut", "flipped", "random", "for us"):
+        for _ in range(25):
+            for _ in range(80):
+                client.write(packets(kind, rng))
+            world.fly(0.02, 0.02)
     assert world.armed == [True, True]
     assert world.modes == [HOLD, HOLD]
     np.testing.assert_allclose(world.heights, 1.0, atol=0.03)
@@ -318,7 +313,7 @@ def test_parameters_are_listed_read_and_set(world):
     assert "no parameter NONE" in client.texts()
 
 
-@pytest.mark.parametrize("mission", ["iris", "two-x500", "zigzag"])
+@pytest.mark.parametrize("mission", ["two-x500", "zigzag"])
 def test_names_of_keys_and_channels_are_short_and_different(mission):
     tables = tables_of(tl.load_mission(mission))
     keys = [

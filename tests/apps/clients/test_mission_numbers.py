@@ -5,15 +5,15 @@ import threading
 from types import SimpleNamespace
 
 import pytest
-from patience import until
+from patience import joined, until
 
 from tandemlift.apps.clients.mission_numbers import mission_numbers
 
 
 @pytest.fixture
 def flight():
-    """A flight that makes no change until `go` is set."""
-    go, made = threading.Event(), []
+    """A flight that makes no change until `go` is set, and whose changes have all ended with the test."""
+    go, made, before = threading.Event(), [], threading.enumerate()
 
     def apply(message):
         go.wait()
@@ -24,6 +24,7 @@ def flight():
     session = SimpleNamespace(scene={"parameters": [shown, named]}, apply=apply)
     yield SimpleNamespace(session=session, go=go, made=made)
     go.set()
+    joined(*(thread for thread in threading.enumerate() if thread not in before))
 
 
 def test_each_component_of_a_list_is_a_number_within_its_bounds(flight):

@@ -1,13 +1,13 @@
 """The report of `tandemlift run`, opened from disk in a browser without a network: its flight plays, its plots zoom."""
 
 import pytest
+from chromium import launched, new_page
 from patience import until
 
 import tandemlift as tl
 from tandemlift.apps.live.replay import report_replay
 from tandemlift.pictures.report.flight_report import write_report
 
-pytest.importorskip("playwright")
 SIZES = {"desktop": (1280, 900), "phone": (390, 844)}
 
 
@@ -19,8 +19,6 @@ def path(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def browser():
-    from chromium import launched
-
     with launched() as one:
         yield one
 
@@ -28,9 +26,7 @@ def browser():
 @pytest.mark.parametrize("size", SIZES)
 def test_the_flight_plays_and_a_click_in_a_plot_takes_it_to_that_time(browser, path, size):
     width, height = SIZES[size]
-    page = browser.new_page(viewport={"width": width, "height": height})
-    wrong, asked = [], []
-    page.on("pageerror", lambda error: wrong.append(str(error)))
+    page, asked = new_page(browser, {"width": width, "height": height}), []
     page.on("request", lambda request: asked.append(request.url))
     page.goto(path.as_uri())
     page.wait_for_selector("#flight[data-shown]")
@@ -45,13 +41,13 @@ def test_the_flight_plays_and_a_click_in_a_plot_takes_it_to_that_time(browser, p
     end = tl.load_mission("one-push").mission.duration
     until(lambda: abs(float(clock.inner_text()) - end / 2) < 0.02 * end, "the time of the click")
     assert page.evaluate("document.documentElement.scrollWidth") <= width
-    assert wrong == []
+    assert page.wrong == []
     assert [url for url in asked if not url.startswith(("file:", "blob:", "data:", "about:"))] == []
     page.close()
 
 
 def test_a_drag_across_a_plot_zooms_all_plots_and_a_double_click_shows_all_again(browser, path):
-    page = browser.new_page(viewport={"width": 1280, "height": 900})
+    page = new_page(browser, {"width": 1280, "height": 900})
     page.goto(path.as_uri())
     page.wait_for_selector("#flight[data-shown]")
     canvases = page.locator("#plots canvas")

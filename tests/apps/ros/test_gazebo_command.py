@@ -2,26 +2,16 @@
 
 import pytest
 
-from tandemlift.apps.cli.main import main
 
-
-def test_a_flight_by_hand_is_not_fast(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("sys.argv", ["tandemlift", "gazebo", "hover", "--by-hand", "--fast"])
-    with pytest.raises(SystemExit) as end:
-        main()
-    assert end.value.code == 2
-    assert "--fast" in capsys.readouterr().err
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_without_gazebo_the_command_says_where_to_get_it_and_writes_nothing(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
+@pytest.mark.parametrize(
+    ("arguments", "words"), [(("--by-hand", "--fast"), "--fast"), (("--no-window",), "tools/gazebo-root")]
+)
+def test_a_fast_flight_by_hand_or_one_without_gazebo_is_refused_and_nothing_is_written(
+    arguments, words, run, tmp_path, monkeypatch
+):
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.delenv("TANDEMLIFT_GAZEBO_ROOT", raising=False)
-    monkeypatch.setattr("sys.argv", ["tandemlift", "gazebo", "hover", "--no-window"])
-    with pytest.raises(SystemExit) as end:
-        main()
-    assert end.value.code == 2
-    assert "tools/gazebo-root" in capsys.readouterr().err
+    code, _, err = run("gazebo", "hover", *arguments)
+    assert code == 2
+    assert words in err
     assert list(tmp_path.iterdir()) == []

@@ -3,6 +3,10 @@
 import pytest
 from patience import until
 
+import tandemlift as tl
+from tandemlift.apps.live.page_files import page_files
+from tandemlift.apps.live.replay import replay_html
+
 
 @pytest.fixture(scope="package")
 def live(tmp_path_factory):
@@ -21,6 +25,14 @@ def browser():
 
     with launched() as one:
         yield one
+
+
+@pytest.fixture(scope="package")
+def replay(tmp_path_factory):
+    """The address of a page that shows `one-push` again."""
+    html = tmp_path_factory.mktemp("replay") / "replay.html"
+    html.write_text(replay_html(tl.fly(tl.load_mission("one-push")), page_files()), "utf-8")
+    return html.as_uri()
 
 
 @pytest.fixture

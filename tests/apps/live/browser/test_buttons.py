@@ -1,13 +1,18 @@
 """The buttons below the picture."""
 
 import numpy as np
-from chromium import stopped
+from chromium import has_said
 from patience import until
 
 import tandemlift as tl
 
+FROM_ANOTHER_PAGE = """(message) => {
+  const socket = new WebSocket(`ws://${location.host}/ws`);
+  socket.onopen = () => socket.send(JSON.stringify({ seq: 1, ...message }));
+}"""
 
-def test_time_stands_still_while_it_is_paused(page, live):
+
+def test_time_stands_still_while_it_is_paused_and_passes_as_slowly_as_is_asked(page, live):
     page.keyboard.press("p")
     live.wait_status(lambda status: status["paused"], "a pause")
     page.get_by_role("button", name="Continue").wait_for()  # P does what the button says
@@ -15,16 +20,17 @@ def test_time_stands_still_while_it_is_paused(page, live):
     assert live.wait_frames(20)["time"] == then
     page.keyboard.press("p")
     live.wait_status(lambda status: not status["paused"], "time going on")
-
-
-def test_time_passes_as_slowly_as_is_asked(page, live):
     page.get_by_label("Speed of the flight").select_option("0.25")
     live.wait_status(lambda status: status["speed"] == 0.25, "a quarter of the pace")
     page.get_by_label("Speed of the flight").select_option("1")
     live.wait_status(lambda status: status["speed"] == 1.0, "its own pace")
 
 
-def test_a_name_that_is_refused_says_why_in_the_dialog_and_another_one_is_taken(page, live):
+def test_a_name_that_is_refused_says_why_in_the_dialog_and_what_another_one_has_flies_again_to_the_last_bit(page, live):
+    (live.out / "file").write_text("no folder", "utf-8")
+    page.click("#dock span:text-is('Save')")
+    page.get_by_role("button", name="Cancel").click()
+    assert not page.is_visible("#saving")
     page.click("#dock span:text-is('Save')")
     reason = page.locator("#saving .reason")
     for name in ("", "a b", "../elsewhere", "x" * 65):
@@ -35,44 +41,18 @@ def test_a_name_that_is_refused_says_why_in_the_dialog_and_another_one_is_taken(
         assert "must be 1 to 64 letters, digits, '.', '_' or '-'" in reason.text_content()
         assert f'save.name = "{name[:20]}' in reason.text_content()
         assert page.locator("#notices").text_content() == ""
+    page.fill("#save-name", "file")
+    page.keyboard.press("Enter")
+    until(lambda: "file: cannot be written" in reason.text_content(), "a reason")
     page.fill("#save-name", "taken")
     assert not page.is_visible("#saving .reason")
     page.keyboard.press("Enter")
     until(lambda: not page.is_visible("#saving"), "the dialog to close")
-    until(lambda: "Saved as" in page.locator("#notices").text_content(), "a notice")
-    assert (live.out / "taken" / "flight.npz").exists()
-
-
-def test_a_name_may_be_corrected_after_the_folder_could_not_be_written(page, live):
-    (live.out / "file").write_text("no folder", "utf-8")
-    page.click("#dock span:text-is('Save')")
-    page.fill("#save-name", "file")
-    page.keyboard.press("Enter")
-    until(lambda: "file: cannot be written" in (page.locator("#saving .reason").text_content() or ""), "a reason")
-    page.get_by_role("button", name="Cancel").click()
-    assert not page.is_visible("#saving")
-
-
-def test_what_is_saved_on_the_page_flies_again_to_the_last_bit(page, live):
-    page.click("#dock span:text-is('Save')")
-    page.fill("#save-name", "from-the-page")
-    page.keyboard.press("Enter")
-    folder = live.out / "from-the-page"
-    until((folder / "flight.npz").exists, "a flight")
+    until(lambda: has_said(page, "Saved as"), "a notice")
+    folder = live.out / "taken"
     saved, again = tl.Flight.load(folder / "flight.npz"), tl.fly(tl.load_mission(folder / "recorded.toml"))
     for channel in saved.channels:
         np.testing.assert_array_equal(saved[channel], again[channel], channel)
-
-
-def test_who_is_not_to_be_heard_is_not_and_stop_stops_at_once(page, live):
-    page.get_by_role("button", name="Follows me").click()
-    live.wait_status(lambda status: not status["enabled"], "a pilot that does not listen")
-    page.get_by_role("button", name="Does not follow").click()
-    live.wait_status(lambda status: status["enabled"], "a pilot that listens")
-    stopped(page)
-    live.wait_status(lambda status: status["phase"] in ("stopped", "crashed"), "stopped rotors")
-    page.get_by_role("button", name="Reset").click()
-    live.wait_status(lambda status: status["phase"] in ("guided", "hold"), "hover")
 
 
 def test_in_the_air_stop_asks_first_and_cancel_and_escape_fly_on(page, live):
@@ -88,9 +68,9 @@ def test_in_the_air_stop_asks_first_and_cancel_and_escape_fly_on(page, live):
 
 
 def test_on_the_ground_stop_asks_nothing_and_a_landing_answers_the_question(page, live):
-    page.get_by_role("button", name="Land").click()
     page.get_by_role("button", name="Stop").click()
     assert page.locator("#question").is_visible()
+    page.evaluate(FROM_ANOTHER_PAGE, {"type": "ask", "what": "land"})
     until(lambda: page.text_content("#mode") == "on the ground", "a landing")
     until(lambda: not page.is_visible("#question"), "no question")
     page.get_by_role("button", name="Stop").click()
@@ -103,6 +83,7 @@ def test_on_the_ground_stop_asks_nothing_and_a_landing_answers_the_question(page
 def test_it_lands_is_reset_and_the_page_begins_anew(page, live):
     page.get_by_role("button", name="Land").click()
     live.wait_status(lambda status: status["phase"] in ("land", "idle"), "a landing")
+    scene = live.scene
     page.click("#dock button:has-text('Reset')")
-    live.wait(lambda seen: seen["time"] < 5.0, "a new flight")
+    live.until(lambda: live.scene is not scene, "a new flight")
     live.wait_status(lambda status: status["phase"] in ("guided", "hold"), "hover")

@@ -10,7 +10,7 @@ text = "Still."
 settings.admittance.damping = 4
 [[steps]]
 text = "Pushed, and it stands."
-push = { force = [0, 1.5, 0], duration = 20 }
+push = { force = [0, 1.5, 0], duration = 60 }
 [[steps]]
 text = "Paused."
 pause = true

@@ -4,14 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from chromium import MS, beam_pixels, panel
+from chromium import beam_pixels, new_page, panel
 from patience import until
 
 import tandemlift as tl
 from tandemlift.apps.live.page_files import page_files
 from tandemlift.apps.live.replay import replay_html
 
-PHONES = [(360, 740), (390, 844), (740, 360)]
+PHONES = [(360, 740), (740, 360)]
 LONG = "narrow-zigzag-with-a-slow-person"
 FINGER = 40  # pixels
 SHAPES = """() => {
@@ -62,24 +62,12 @@ TEXTS = """() => {
 
 
 def phone(browser, address, size, **options):
-    """A page on a phone of a size, and its errors."""
-    context = browser.new_context(
-        viewport={"width": size[0], "height": size[1]}, has_touch=True, is_mobile=True, **options
-    )
-    page = context.new_page()
-    page.set_default_timeout(MS)
-    page.wrong = []
-    page.on("pageerror", lambda error: page.wrong.append(str(error)))
+    """A page on a phone of a size."""
+    size = {"width": size[0], "height": size[1]}
+    page = new_page(browser, size, has_touch=True, is_mobile=True, **options)
     page.goto(address)
     page.wait_for_selector("#surface canvas")
     return page
-
-
-@pytest.fixture(scope="module")
-def replay(tmp_path_factory):
-    html = tmp_path_factory.mktemp("replay") / "replay.html"
-    html.write_text(replay_html(tl.fly(tl.load_mission("one-push")), page_files()), "utf-8")
-    return html.as_uri()
 
 
 def faults(page, size):
@@ -185,8 +173,7 @@ def test_the_labels_of_plots_are_whole_at_both_ends(browser, tmp_path):
     html.write_text(
         replay_html(replace(flight, time=flight.time + 3000.0, channels=flight.channels | far), page_files()), "utf-8"
     )
-    page = browser.new_context(viewport={"width": 760, "height": 600}).new_page()
-    page.set_default_timeout(MS)
+    page = new_page(browser, {"width": 760, "height": 600})
     page.goto(html.as_uri())
     page.wait_for_selector(".plot canvas")
     page.get_by_title("Play or pause (P)").click()

@@ -1,7 +1,7 @@
 """Another mission from the page: its menu, and files that are dropped on it or chosen."""
 
 import pytest
-from chromium import Live, opened
+from chromium import Live, has_said, opened
 from patience import until
 
 import tandemlift as tl
@@ -43,7 +43,7 @@ def flown(live, mission):
 def test_the_menu_flies_another_mission_on_every_page(page, live):
     assert page.locator("#missions option").all_inner_texts() == [one["name"] for one in live.scene["missions"]]
     page.select_option("#missions", "iris")
-    until(lambda: "Flying iris" in page.inner_text("#notices"), "a notice")
+    until(lambda: has_said(page, "Flying iris"), "a notice")
     flown(live, "iris")
     until(lambda: page.text_content("#mode") == "on the ground", "iris on its feet")
     assert page.input_value("#missions") == "iris"
@@ -51,7 +51,7 @@ def test_the_menu_flies_another_mission_on_every_page(page, live):
 
 def test_a_file_is_flown_that_is_dropped_or_chosen(page, live, tmp_path):
     page.evaluate(DROP, ["mine.toml", MINE])
-    until(lambda: "Flying mine.toml" in page.inner_text("#notices"), "a notice")
+    until(lambda: has_said(page, "Flying mine.toml"), "a notice")
     flown(live, "mine")
     mass = next(one for one in live.scene["parameters"] if one["key"] == "admittance.mass")
     assert mass["value"] == mass["initial"] == [2.5] * 3

@@ -1,23 +1,16 @@
 """The page as a whole: its sizes, a replay from disk, and what it shows before the flight begins."""
 
-import pytest
 import slow_compiler
-from chromium import MS, SIZE, Live, middle_of_the_beam, opened
+from chromium import Live, middle_of_the_beam, new_page, opened
 from patience import until
-
-import tandemlift as tl
-from tandemlift.apps.live.page_files import page_files
-from tandemlift.apps.live.replay import replay_html
 
 BUTTONS = ("Lift", "Land", "Stop", "Pause", "Save")
 
 
-@pytest.mark.parametrize("size", [(1280, 800), (800, 450)])  # phones: `test_looks.py`
-def test_nothing_on_the_page_is_cut_off_at_any_size(browser, live, size):
+def test_nothing_on_the_page_is_cut_off_at_any_size(browser, live):
     page = opened(browser, live.address)
-    page.set_viewport_size({"width": size[0], "height": size[1]})
 
-    def cut_off():
+    def cut_off(size):
         boxes = {n: page.get_by_role("button", name=n).first.bounding_box() for n in BUTTONS}
         inside = [
             name
@@ -27,28 +20,25 @@ def test_nothing_on_the_page_is_cut_off_at_any_size(browser, live, size):
         wide = page.evaluate("document.documentElement.scrollWidth") > size[0]
         return set(BUTTONS) - set(inside) | ({"the page"} if wide else set())
 
-    until(lambda: not cut_off(), "a page of that size")
+    for size in ((1280, 800), (800, 450)):  # phones: `test_looks.py`
+        page.set_viewport_size({"width": size[0], "height": size[1]})
+        until(lambda size=size: not cut_off(size), "a page of that size")
     page.context.close()
 
 
-def test_a_replay_opens_from_disk_with_the_network_off(browser, tmp_path):
-    flight = tl.fly(tl.load_mission("one-push"))
-    html = tmp_path / "replay.html"
-    html.write_text(replay_html(flight, page_files()), "utf-8")
+def test_a_replay_opens_from_disk_with_the_network_off(browser, replay):
     asked = []
-    context = browser.new_context(viewport=SIZE, offline=True)
-    page = context.new_page()
-    page.set_default_timeout(MS)
+    page = new_page(browser, offline=True)
     page.on("request", lambda request: asked.append(request.url))
-    page.on("pageerror", lambda error: asked.append(str(error)))
-    page.goto(html.as_uri())
+    page.goto(replay)
     page.wait_for_selector("#surface canvas")
     middle_of_the_beam(page)
-    slider = page.get_by_label("Time", exact=True)
-    slider.fill("10")
+    page.get_by_title("Play or pause (P)").click()
+    page.get_by_label("Time", exact=True).fill("10")
     until(lambda: abs(float(page.locator("output b").text_content()) - 10.0) < 1.0, "the time of the slider")
     assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
-    context.close()
+    assert page.wrong == []
+    page.context.close()
 
 
 def test_while_it_is_compiled_the_page_shows_the_vehicle_and_what_is_waited_for(browser, tmp_path, monkeypatch):
@@ -59,7 +49,8 @@ def test_while_it_is_compiled_the_page_shows_the_vehicle_and_what_is_waited_for(
     try:
         page = opened(browser, one.address)
         until(lambda: page.text_content("#mode") == "preparing", "its mode")
-        assert page.text_content("#hint") == "Preparing the flight: compiling the flight loop \u2026"
+        hint = "Preparing the flight: compiling the flight loop \u2026"
+        until(lambda: page.text_content("#hint") == hint, "what it waits for")
         assert page.is_visible("#hint")
         middle_of_the_beam(page)
         assert not page.locator("#meters .speed .late").count()

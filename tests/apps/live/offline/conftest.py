@@ -2,14 +2,14 @@
 
 import pytest
 from own_flight import OwnFlight
-from sessions import GUIDED
+from sessions import CORRIDOR, GUIDED
 
 from tandemlift.apps.live import pages
 from tandemlift.apps.live.page_files import page_files
 from tandemlift.apps.live.page_modules import packed_flight, packed_mission, page_mission
 from tandemlift.apps.live.session.session import Session
 
-BY_HAND = GUIDED | {"supervision.model": "on", "supervision.limits.tilt_time": 100.0}
+BY_HAND = GUIDED | {"supervision.model": "on", "supervision.limits.tilt_time": 100.0, "phases.lift_duration": 1.5}
 TENDER = {"supervision.limits.tilt": 0.11, "crash.tilt": 0.12, "promise.tilt": 0.1}  # a hard push is a crash
 
 
@@ -48,14 +48,19 @@ def by_hand(packed_by_hand, tmp_path):
     session.stop()
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
+def corridor():
+    return packed_mission(page_mission("hover", CORRIDOR), "a low corridor")
+
+
+@pytest.fixture(scope="package")
 def address(hover, tmp_path_factory):
     file = tmp_path_factory.mktemp("page") / "own.html"
     file.write_text(pages.offline_html([hover], page_files()), "utf-8")
     return file.as_uri()
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="package")
 def browser():
     from chromium import launched
 

@@ -3,11 +3,9 @@
 import pytest
 from chromium import opened, panel, seconds_flown
 from patience import until
-from sessions import CORRIDOR
 
 from tandemlift.apps.live import pages
 from tandemlift.apps.live.page_files import page_files
-from tandemlift.apps.live.page_modules import packed_mission, page_mission
 
 UPRIGHT, LYING = {"width": 390, "height": 844}, {"width": 844, "height": 390}
 TOUCH = {"has_touch": True, "is_mobile": True}
@@ -19,10 +17,9 @@ CUT = """() => [...document.querySelectorAll("#dock button span, #dock dd")]
 
 
 @pytest.fixture(scope="module")
-def corridor(tmp_path_factory):
+def address(corridor, tmp_path_factory):
     file = tmp_path_factory.mktemp("page") / "corridor.html"
-    flight = packed_mission(page_mission("hover", CORRIDOR), "a low corridor")
-    file.write_text(pages.offline_html([flight], page_files()), "utf-8")
+    file.write_text(pages.offline_html([corridor], page_files()), "utf-8")
     return file.as_uri()
 
 
@@ -35,8 +32,8 @@ def clock(page):
     return page.text_content("#challenge .time dd"), page.text_content("#challenge .score dd")
 
 
-def test_on_a_phone_the_hand_moves_level_and_a_run_that_is_not_ranked_stands_still(browser, corridor):
-    page = opened(browser, corridor, **TOUCH)
+def test_on_a_phone_the_hand_moves_level_and_a_run_that_is_not_ranked_stands_still(browser, address):
+    page = opened(browser, address, **TOUCH)
     page.set_viewport_size(UPRIGHT)
     assert plane(page) == "facing me"
     page.get_by_role("button", name="Challenge").tap()
@@ -55,8 +52,8 @@ def test_on_a_phone_the_hand_moves_level_and_a_run_that_is_not_ranked_stands_sti
     page.context.close()
 
 
-def test_ghost_and_challenge_share_a_line_on_a_phone_that_lies_and_no_word_is_cut(browser, corridor):
-    page = opened(browser, corridor, lambda one: one.set_viewport_size(LYING), **TOUCH)
+def test_ghost_and_challenge_share_a_line_on_a_phone_that_lies_and_no_word_is_cut(browser, address):
+    page = opened(browser, address, lambda one: one.set_viewport_size(LYING), **TOUCH)
     until(lambda: seconds_flown(page) > 1.0, "a flight")
     assert page.is_hidden("#plots")
     page.get_by_role("button", name="Challenge").tap()

@@ -153,7 +153,7 @@ def test_a_mission_of_another_vehicle_is_refused_with_a_reason(opened, hover):
 
 def test_a_ghost_that_has_ended_is_told_and_the_flight_goes_on(opened, packed_by_hand, tmp_path):
     flight = opened(packed_by_hand)
-    check_done(flight, (("ask", {"what": "lift"}, 8.0),))
+    check_done(flight, (("ask", {"what": "lift"}, 4.0),))
     flight.say("set", key="person.max_force", value=20.0)
     flight.fly(1.0)
     flight.say("compare", what="keep")

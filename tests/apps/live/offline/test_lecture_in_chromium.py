@@ -34,7 +34,7 @@ spotlight = "height"
 text = "A push."
 spotlight = "push"
 settings.admittance.damping = 7
-push = { force = [0, 1.5, 0], duration = 2.0 }
+push = { force = [0, 1.5, 0], duration = 6.0 }
 [[steps]]
 text = "With a ghost."
 ghost = "keep"
@@ -52,9 +52,8 @@ def said(page):
     return page.locator("#lecture header > span").inner_text(), page.locator("#lecture .text").inner_text()
 
 
-@pytest.mark.parametrize("colours", ["light", "dark"])
-def test_in_a_lecture_values_have_28_pixels_and_texts_22(browser, address, colours):
-    page = aloft(browser, address, HALL, color_scheme=colours)
+def test_in_a_lecture_values_have_28_pixels_and_texts_22(browser, address):
+    page = aloft(browser, address, HALL)
     page.keyboard.press("t")
     until(lambda: page.evaluate("document.fullscreenElement !== null"), "full screen")
     dropped(page, SCRIPT)
@@ -92,7 +91,7 @@ def test_keys_go_through_the_steps_of_a_script_which_do_what_they_say(browser, a
     until(lambda: float(page.inner_text(".spotlight .value b") or 1.0) < 0.01, "its end")
     page.keyboard.press("Space")
     until(lambda: paused(page) and value(page, "admittance.damping") == 14.0, "a pause")
-    assert "damping 7, now: 14" in page.inner_text("#comparison")
+    until(lambda: "damping 7, now: 14" in page.inner_text("#comparison"), "what differs")
     page.keyboard.press("ArrowRight")  # there is no other step
     page.keyboard.press("PageUp")
     until(lambda: not paused(page) and value(page, "admittance.damping") == 7.0, "the step before")

@@ -1,11 +1,10 @@
 """The page that flies by itself in Chromium, from disk: pulled by a real mouse, saved, and flown again in Python."""
 
-import time
-
 import numpy as np
 import pytest
-from chromium import SIZE, middle_of_the_beam, opened, panel, save, seconds_flown
+from chromium import flown_on, has_said, middle_of_the_beam, new_page, opened, panel, pushed, save, seconds_flown
 from click.testing import CliRunner
+from own_flight import check_flies_again
 from patience import until
 from repository import ROOT
 
@@ -13,8 +12,6 @@ import tandemlift as tl
 from tandemlift.apps.cli.main import cli
 from tandemlift.apps.live import pages
 from tandemlift.apps.live.page_files import page_files
-from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.stepping import fly_stepwise
 
 
 def pull_and_push(page):
@@ -22,22 +19,12 @@ def pull_and_push(page):
     x, y = middle_of_the_beam(page)
     page.mouse.move(x, y)
     page.mouse.down()
-    for i in range(20):
-        page.mouse.move(x + 4.0 * i, y - 2.0 * i)
-        time.sleep(0.02)
+    for i in range(15):
+        page.mouse.move(x + 5.0 * i, y - 2.5 * i)
+        flown_on(page, 0.1)  # the hand is recorded once for each step
     until(lambda: page.locator("#surface.pulling").count() == 1, "the page holds the beam")
     page.mouse.up()
-    page.keyboard.down("KeyD")
-    time.sleep(0.6)
-    page.keyboard.up("KeyD")
-
-
-def assert_flown_again_to_the_last_bit(folder):
-    """The recording in a folder, flown by Python, ends as the page's flight did."""
-    plan = FlightPlan(tl.load_mission(folder / "recorded.toml"))
-    again = fly_stepwise(plan, plan.steps + 1, 1)
-    last = np.load(folder / "last_sample.npy")
-    np.testing.assert_array_equal(again.last.view(np.int64), last.view(np.int64))
+    pushed(page)
 
 
 def test_a_recording_made_by_a_real_mouse_flies_again_in_python_to_the_last_bit(browser, address, tmp_path):
@@ -51,7 +38,7 @@ def test_a_recording_made_by_a_real_mouse_flies_again_in_python_to_the_last_bit(
     assert save(page, tmp_path) == "by-hand.zip"
     assert page.wrong == []
     page.close()
-    assert_flown_again_to_the_last_bit(tmp_path)
+    check_flies_again(tmp_path / "recorded.toml", np.load(tmp_path / "last_sample.npy"))
     hand = np.load(tmp_path / "hand.npz")["hand"]
     assert hand[:, 0].max() == 1.0
     assert len(np.unique(hand[:, 4:7], axis=0)) > 10  # targets
@@ -81,12 +68,12 @@ def test_an_own_mission_with_an_own_controller_flies_from_the_file_that_the_comm
     recorded = tl.load_mission(tmp_path / "recorded.toml")
     assert recorded.controller.name == "my-pd"
     assert [(change.key, change.value[0]) for change in recorded.changes] == [("controller.stiffness", 5.0)]
-    assert_flown_again_to_the_last_bit(tmp_path)
+    check_flies_again(tmp_path / "recorded.toml", np.load(tmp_path / "last_sample.npy"))
 
 
 def test_a_link_is_read_and_written_and_the_menu_flies_another_flight(browser, address):
     page = opened(browser, f"{address}#mission=hover&admittance.mass=2.5&admittance.damping=99")
-    until(lambda: "admittance.damping = 99:" in page.inner_text("#notices"), "a refused setting")
+    until(lambda: has_said(page, "admittance.damping = 99:"), "a refused setting")
     assert float(panel(page, "admittance.mass").locator("input[type=number]").first.input_value()) == 2.5
     page.click("summary:has-text('This page')")
     page.click("#copy-link")
@@ -101,7 +88,7 @@ def test_a_link_is_read_and_written_and_the_menu_flies_another_flight(browser, a
 def test_an_edited_page_says_that_its_flight_is_damaged(browser, hover, tmp_path):
     text = pages.offline_html([hover._replace(sha256="0" * 64)], page_files())
     (tmp_path / "edited.html").write_text(text, "utf-8")
-    page = browser.new_context(viewport=SIZE).new_page()
+    page = new_page(browser)
     page.goto((tmp_path / "edited.html").as_uri())
     until(lambda: "its checksum is wrong" in page.inner_text("#hint"), "the reason")
     page.close()

@@ -13,9 +13,10 @@ from tandemlift.apps.live.server import PageServer
 
 @pytest.fixture
 def clock(monkeypatch):
-    """The time by which the server judges its viewers, which stands still; [s], in a list."""
+    """The time by which the server judges its viewers, which stands still, as their work does; [s], in a list."""
     now = [1000.0]
     monkeypatch.setattr(viewers, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    monkeypatch.setattr(viewers, "thread_time", lambda: 0.0)
     return now
 
 

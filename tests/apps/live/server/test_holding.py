@@ -136,7 +136,9 @@ def test_a_viewer_who_does_not_hold_may_go_without_letting_go(live):
     with live.viewer() as holder:
         holder.grab(1.0, 0.0, 0.0)
         holder.text("status", holder="you")
-        live.raw().kill()
+        other = live.raw()
+        holder.text("status", viewers=2)
+        other.kill()
         holder.text("status", viewers=1)
         at_target(holder, live, [1.0, 0.0, 0.0])
         assert live.flight.released == 0

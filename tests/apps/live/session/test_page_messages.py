@@ -5,11 +5,9 @@ import json
 import math
 import re
 
-import hypothesis.strategies as st
 import pytest
 from for_all import for_all
 from hostile import GOOD, hostile
-from hypothesis import given, settings
 
 from tandemlift.apps.live.session import page_messages as reading
 from tandemlift.apps.live.session.page_messages import (
@@ -22,7 +20,7 @@ from tandemlift.apps.live.session.page_messages import (
     subject_of,
 )
 
-MANY = 50_000
+MANY = 10_000
 
 
 def refused(text) -> Refusal:
@@ -121,36 +119,16 @@ def test_what_a_message_is_about_names_its_key():
     assert subject_of(read_message(json.dumps(GOOD[2]))) == "release"
 
 
-@settings(max_examples=50)
-@given(
-    st.recursive(
-        st.none() | st.booleans() | st.floats() | st.text(), lambda x: st.lists(x) | st.dictionaries(st.text(), x)
-    )
-)
-def test_any_json_is_read_or_refused_in_few_words(value):
-    for text in (json.dumps(value), json.dumps({"type": "set", "seq": 1, "key": "a", "value": value})):
-        _check_read(text)
-
-
 def test_of_many_hostile_messages_those_that_get_through_are_as_good_as_any():
-    _check_good([m for m in map(_check_read, hostile(MANY, seed=2)) if m is not None])
-
-
-def _check_read(text):
-    """The message in a text, or None if it is refused in a few words."""
-    said = ""
-    try:
-        return read_message(text)
-    except Refusal as refusal:
-        said = str(refusal)
-    assert 0 < len(said) < 500
-    return None
-
-
-def _check_good(messages):
-    """That what got through is as good as any message."""
-    assert len(messages) > 50
-    for message in messages:
+    passed, said = [], []
+    for text in hostile(MANY, seed=2):
+        try:
+            passed.append(read_message(text))
+        except Refusal as refusal:
+            said.append(str(refusal))
+    assert all(0 < len(text) < 500 for text in said)
+    assert len(passed) > 50
+    for message in passed:
         data = message.model_dump()
         assert read_message(json.dumps(data if data.get("key", "") is not None else {**data, "key": "x"}))
         assert all(abs(n) <= 1e15 for n in numbers_in(data))

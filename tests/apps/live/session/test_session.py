@@ -4,13 +4,14 @@ import threading
 
 import numpy as np
 import pytest
-from patience import PATIENCE, until
+from patience import COMPILING, PATIENCE, until
 from sessions import fly, say, seen, unprepared
 
 import tandemlift as tl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.apps.live.session.page_messages import PAGE_MESSAGES, CompareMessage, PingMessage, TurnMessage
 from tandemlift.apps.live.session.session import Session
+from tandemlift.compiler.machine_code import code
 from tandemlift.core.caching import LastUsed
 
 
@@ -44,19 +45,15 @@ def test_an_error_in_flight_is_told(session, monkeypatch):
     assert session.status()["phase"] != "failed"
 
 
-def test_a_recorded_mission_is_flown_by_who_watches_and_not_by_the_recording(tmp_path, session):
-    fly(session, 0.5)
-    say(session, "save", name="first")
-    again = interactive_mission(tl.load_mission(tmp_path / "first" / "recorded.toml"))
-    assert (again.person.model, again.person.recording, again.changes) == ("virtual-hand", None, ())
-
-
-def test_what_was_flown_is_saved_under_its_name_and_flies_again(session, tmp_path):
+def test_what_was_flown_is_saved_under_its_name_and_flies_again_and_a_session_of_it_by_hand(session, tmp_path):
     fly(session, 2.0)
     answer = say(session, "save", name="mine")
     assert answer == [{"type": "done", "what": "save", "detail": str(tmp_path / "mine")}]
-    again = tl.fly(tl.load_mission(tmp_path / "mine" / "recorded.toml"))
-    np.testing.assert_array_equal(again["position"], tl.Flight.load(tmp_path / "mine" / "flight.npz")["position"])
+    recorded = tl.load_mission(tmp_path / "mine" / "recorded.toml")
+    flown = tl.Flight.load(tmp_path / "mine" / "flight.npz")
+    np.testing.assert_array_equal(tl.fly(recorded)["position"], flown["position"])
+    by_hand = interactive_mission(recorded)
+    assert (by_hand.person.model, by_hand.person.recording, by_hand.changes) == ("virtual-hand", None, ())
 
 
 def test_before_it_is_compiled_the_vehicle_is_seen_where_it_will_begin(tmp_path):
@@ -116,9 +113,10 @@ def test_a_session_that_still_compiles_is_stopped_at_once(tmp_path, monkeypatch)
 def test_optimised_code_takes_over_while_it_flies(tmp_path, monkeypatch):
     monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path / "cache"))
     monkeypatch.setattr("tandemlift.simulation.plan.LOOP_CODE", LastUsed(8))
+    monkeypatch.setattr(code, "optimise_in_process", lambda text, *_: code.machine.compiled(text, code.machine.QUICK))
     one = unprepared(tmp_path)
     one.start()
-    until(lambda: one.is_ready and one.flight._stepper.code.is_best, patience=4 * PATIENCE)
+    until(lambda: one.is_ready and one.flight._stepper.code.is_best, patience=COMPILING)
     then = one.flight.step
     until(lambda: one.flight.step > then + 100)
     assert not one.flight.lost

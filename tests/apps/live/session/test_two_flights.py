@@ -17,14 +17,22 @@ from tandemlift.apps.live.two_flights import TwoFlights
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 DAMPING = "admittance.damping"
+HOVERS = 2500  # steps, after which it does
 
 
-@pytest.fixture
-def session(tmp_path):
-    one = TwoFlights(page_mission("hover", GUIDED), out=tmp_path)
+@pytest.fixture(scope="module")
+def flown():
+    one = TwoFlights(page_mission("hover", GUIDED | {"phases.lift_start": 0.0, "phases.lift_duration": 1.0}))
     one.prepare()
     yield one
     one.stop()
+
+
+@pytest.fixture
+def session(flown):
+    """A flight that begins anew."""
+    flown.apply(ResetMessage(seq=1))
+    return flown
 
 
 def push(session, force, steps):
@@ -41,7 +49,7 @@ def alone(flight):
 
 def test_a_ghost_keeps_its_settings_and_feels_the_same_hand(session):
     assert "ghost" not in session.scene
-    session._fly(9000)  # it hovers
+    session._fly(HOVERS)
     push(session, (0.0, 1.0, 0.0), 500)
     session.apply(CompareMessage(seq=2, what="keep"))
     session.apply(SetMessage(seq=3, key=DAMPING, value=(12.0, 12.0, 12.0)))
@@ -61,8 +69,8 @@ def test_a_ghost_keeps_its_settings_and_feels_the_same_hand(session):
     assert (session._flight, session._ghost) == (ghost, own)
     session._fly(100)
     assert own.step == ghost.step
-    session.apply(RewindMessage(seq=5, time=9800 * own.dt))
-    assert session._flight.step == session._ghost.step == 9801
+    session.apply(RewindMessage(seq=5, time=(HOVERS + 800) * own.dt))
+    assert session._flight.step == session._ghost.step == HOVERS + 801
     session.apply(ResetMessage(seq=6))
     session._fly(100)
     assert session._flight.step == session._ghost.step == 101
@@ -79,7 +87,7 @@ def test_settings_that_are_changed_during_a_pause_are_those_of_the_ghost(session
     np.testing.assert_array_equal(session._ghost.sample, session._flight.sample)
 
 
-def test_a_flight_in_gazebo_has_no_ghost(session):
-    session._engine = "gazebo"
+def test_a_flight_in_gazebo_has_no_ghost(session, monkeypatch):
+    monkeypatch.setattr(session, "_engine", "gazebo")
     with pytest.raises(tl.InputError, match="compare: others may push the body in gazebo"):
         session.apply(CompareMessage(seq=1, what="keep"))

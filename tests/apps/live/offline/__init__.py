@@ -1,0 +1,1 @@
+"""A folder whose tests share one browser."""
