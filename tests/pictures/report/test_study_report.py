@@ -203,5 +203,3 @@ def test_a_study_that_is_not_finished_says_so_and_an_empty_one_is_refused(study,
     with pytest.raises(tl.InputError, match="no row of the study is flown yet"):
         write_study_report(tl.load_study(part.folder), tmp_path / "none.html")
     assert not (tmp_path / "none.html").exists()
-
-
