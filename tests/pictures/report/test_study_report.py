@@ -194,6 +194,15 @@ def test_small_studies_have_a_page_with_a_map_over_their_grid(grid, title, tmp_p
     assert re.findall(r"<b>Figure \d\. (.*)\.</b>", page.text)[1:] == [title] * bool(title)
 
 
+def test_a_study_all_of_whose_flights_failed_has_a_page_with_the_ten_that_failed_first(tmp_path):
+    def crashed(rows):
+        return measured(rows) | {"outcome": ["crashed"] * len(rows)}
+
+    study = made_up({"study": STUDY["study"] | {"draws": 20}, "draw": STUDY["draw"]}, tmp_path / "crashed", crashed)
+    page = check_page(write_study_report(study, tmp_path / "report.html"))
+    assert [row[0] for row in page.rows if row and row[0].isdigit()] == [str(number) for number in range(10)]
+
+
 def test_a_study_that_is_not_finished_says_so_and_an_empty_one_is_refused(study, tmp_path):
     part = without_file(study, 1, tmp_path / "part")
     text = write_study_report(part, tmp_path / "report.html").read_text("utf-8").replace("\u202f", "")

@@ -28,12 +28,6 @@ def stamps(folder):
     return {name: path.stat().st_mtime_ns for name, path in files_of(folder).items()}
 
 
-def test_a_study_that_is_flown_flies_no_chunk_again(twelve):
-    before = stamps(twelve)
-    assert fly(TWELVE, twelve) == 0
-    assert stamps(twelve) == before
-
-
 @pytest.mark.parametrize(
     ("changed", "said"),
     [

@@ -2,14 +2,12 @@
 
 import json
 import math
-from contextlib import contextmanager
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
 
 import tandemlift as tl
-from tandemlift.analysis.studies.tuning import tune
 from tandemlift.analysis.studies.tuning.candidates import Trial, cost_of
 from tandemlift.analysis.studies.tuning.goals import Goal
 from tandemlift.analysis.studies.tuning.result import EVIDENCE_FILE
@@ -155,18 +153,6 @@ def test_ctrl_c_keeps_the_best_so_far_and_writes_it_as_unfinished(tmp_path):
     path = found.save(tmp_path)
     assert "unfinished" in path.read_text("utf-8")
     assert json.loads((tmp_path / EVIDENCE_FILE).read_text("utf-8"))["finished"] is False
-
-
-def test_a_notebook_shows_a_bar(monkeypatch):
-    shown = []
-
-    @contextmanager
-    def bar(what, progress, unit):
-        yield lambda done, most: shown.append((done, most))
-
-    monkeypatch.setattr(tune, "progress_or_own", bar)
-    quick(budget=16)
-    assert shown[-1] == (16, 16)
 
 
 def test_cases_with_targets_are_measured_against_them(tmp_path):
