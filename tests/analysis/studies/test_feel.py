@@ -82,6 +82,20 @@ def test_what_cannot_be_had_fails_and_says_what_to_do(name, changes, check, said
     assert said in found.text
 
 
+def drift(**changes):
+    mission = tl.load_mission("iris", {key.replace("__", "."): value for key, value in changes.items()})
+    return [result for result in feel_checks(mission, axes_of(mission)) if result.check == "drift"]
+
+
+def test_drift_counts_where_joints_are_measured_and_for_as_long_as_the_bias_is_not_learned():
+    assert drift()
+    assert drift(pilot__push="truth") == []
+    long, longer, short = (
+        drift(mission__duration=t, sensors__joints__force_drift=0.01)[0] for t in (900.0, 1800.0, 25.0)
+    )
+    assert long.value == longer.value > short.value
+
+
 def test_without_a_tare_the_bias_of_the_joints_counts():
     tared, free = (
         results("iris", {"estimator.tare_start": start, "estimator.identify_mass": False}) for start in (9.0, None)

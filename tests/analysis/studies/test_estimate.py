@@ -1,15 +1,12 @@
-"""The time and size that a study will take, and the drift of a feel."""
+"""The time and the size that a study will take."""
 
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-import tandemlift as tl
 from tandemlift.analysis.studies import estimate
-from tandemlift.analysis.studies.closed_form import axes_of
 from tandemlift.analysis.studies.design.study_files import load_plan
-from tandemlift.analysis.studies.feel import feel_checks
 
 
 def test_an_estimate_grows_with_the_rows_and_with_the_files(monkeypatch):
@@ -37,17 +34,3 @@ def test_an_estimate_grows_with_the_rows_and_with_the_files(monkeypatch):
 def test_an_estimate_is_told_in_the_largest_unit_of_which_there_are_two(seconds, words):
     _, time = estimate.StudyEstimate(1, 1, 1, seconds, 0).lines(1)
     assert time == f"time    some {words} on 1 threads; {words} on one"
-
-
-def drift(**changes):
-    mission = tl.load_mission("iris", {key.replace("__", "."): value for key, value in changes.items()})
-    return [result for result in feel_checks(mission, axes_of(mission)) if result.check == "drift"]
-
-
-def test_drift_counts_where_joints_are_measured_and_for_as_long_as_the_bias_is_not_learned():
-    assert drift()
-    assert drift(pilot__push="truth") == []
-    long, longer, short = (
-        drift(mission__duration=t, sensors__joints__force_drift=0.01)[0] for t in (900.0, 1800.0, 25.0)
-    )
-    assert long.value == longer.value > short.value
