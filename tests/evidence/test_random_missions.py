@@ -11,15 +11,7 @@ from judge.model import GRAVITY, body_of, corridor_walls
 from judge.verdict import is_rough
 from judge.verdict import judge as judged_record
 from mission_schema import SCHEMA
-from random_missions.generate import (
-    FIXED,
-    LISTS,
-    UNPUSHED,
-    RandomMission,
-    drawable_keys,
-    random_family,
-    shortened,
-)
+from random_missions.generate import FIXED, LISTS, UNPUSHED, RandomMission, drawable_keys, random_family, shortened
 from random_missions.judged import judged
 
 import tandemlift as tl
@@ -27,7 +19,7 @@ from tandemlift.missions import tables_of
 from tandemlift.parts.contact.corridor import CorridorTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
-FAMILIES = range(3)  # five missions each; `make random-missions` flies a thousand
+FAMILIES = range(2)  # three missions each; `make random-missions` flies a thousand
 
 
 def drawn(base, changes):
@@ -44,14 +36,14 @@ def pushed():
 
 @pytest.mark.parametrize("family", FAMILIES)
 def test_missions_at_random_end_as_the_judge_says(family):
-    rows = [judged(drawn) for drawn in random_family(16, family, 5)]
-    assert len(rows) == 5
+    rows = [judged(drawn) for drawn in random_family(16, family, 3)]
+    assert len(rows) == 3
     wrong = [f"{r.family}/{r.member} {r.base}: {r.verdict} {r.changes}" for r in rows if not r.confirmed]
     assert wrong == []
 
 
 def test_where_nobody_pushes_no_mission_at_random_moves_a_metre():
-    rows = [judged(drawn) for drawn in random_family(16, UNPUSHED, 4)]
+    rows = [judged(drawn) for drawn in random_family(16, UNPUSHED, 2)]
     assert [f"{r.family}/{r.member} {r.base}: {r.verdict} {r.changes}" for r in rows if not r.confirmed] == []
 
 
@@ -74,7 +66,7 @@ def test_the_judge_shares_no_code_with_the_package():
     assert imported - set(sys.stdlib_module_names) == {"judge", "mujoco", "numpy"}
 
 
-@pytest.mark.parametrize("name", ["paper", "iris", "four"])
+@pytest.mark.parametrize("name", ["iris", "four"])
 def test_the_judge_weighs_the_vehicle_as_the_package_does(name):
     payload = {"vehicle.payload.center_of_mass": [0.02, 0.1, -0.03]}
     payload |= {} if name == "four" else {"vehicle.payload.products": [0.0, 1e-4, 0.0]}  # a thin plate has none
@@ -100,15 +92,10 @@ def test_mujoco_flies_a_flight_again_to_a_micrometre_for_its_whole_length(pushed
     assert np.abs(apart).max() < 1e-6
 
 
-@pytest.mark.parametrize(
-    ("channel", "factor"), [("rotor_thrusts", 1.002), ("push_force", 1.05)], ids=["thrusts", "push"]
-)
-def test_the_judge_does_not_follow_a_record_whose_commands_are_false(pushed, channel, factor):
-    channels = {**pushed.channels, channel: pushed[channel] * factor}
-    assert judged_record(pushed.mission, pushed.time, channels).unexplained
-
-
-def test_the_judge_does_not_follow_a_body_of_another_mass(pushed):
+def test_the_judge_does_not_follow_a_record_whose_commands_are_false_or_a_body_of_another_mass(pushed):
+    for channel, factor in (("rotor_thrusts", 1.002), ("push_force", 1.05)):
+        channels = {**pushed.channels, channel: pushed[channel] * factor}
+        assert judged_record(pushed.mission, pushed.time, channels).unexplained, channel
     mission = {**pushed.mission, "plant": {"mass_scale": 1.003, "inertia_scale": [1.0, 1.0, 1.0]}}
     assert judged_record(mission, pushed.time, pushed.channels).unexplained
 

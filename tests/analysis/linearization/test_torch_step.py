@@ -85,19 +85,6 @@ def test_the_operators_pass_the_checks_of_pytorch():
         torch.library.opcheck(operators.cotangent.default, given)
 
 
-def test_transforms_of_torch_func_agree():
-    func, together = torch.func, motion(PUSHES)
-    assert torch.equal(func.vmap(motion)(PUSHES), together)
-    assert torch.equal(torch.stack([motion(push) for push in PUSHES]), together)
-    forward, reverse = (func.vmap(way(motion))(PUSHES) for way in (func.jacfwd, func.jacrev))
-    assert torch.allclose(forward, reverse, rtol=1e-12, atol=1e-15)
-    vectorized = torch.autograd.functional.jacobian(motion, PUSHES[0], vectorize=True)
-    assert torch.allclose(vectorized, reverse[0], rtol=1e-12, atol=1e-15)
-    push = PUSHES.clone().requires_grad_()
-    (plain,) = torch.autograd.grad(motion(push).sum(), push)
-    assert torch.allclose(func.vmap(func.grad(lambda u: motion(u).sum()))(PUSHES), plain, rtol=1e-12, atol=1e-15)
-
-
 def test_a_gradient_by_parameters_that_lanes_share_is_the_sum_over_lanes():
     step = step_of()
     state, parameters = torch.from_numpy(step.state), torch.from_numpy(step.parameters).clone().requires_grad_()
@@ -131,18 +118,6 @@ def test_what_it_cannot_take_is_refused():
         step(state, None, PUSHES[:, :2])
     with pytest.raises(InputError, match="walls and corridor: 10 walls, must be none"):
         tl.torch_step("zigzag")
-
-
-def test_parts_of_the_state_and_kinks_are_those_of_jax_step():
-    step = step_of(channels=("rotor_thrusts",))
-    state = step(step.state, None, [0.5, 0.0, 0.0])
-    simulation = tl.Simulation("hover")
-    simulation.step(steps=6000)
-    simulation.step(push=[0.5, 0.0, 0.0])
-    assert np.array_equal(step.read(state, "rotor_thrusts").numpy(), simulation["rotor_thrusts"])
-    threshold = tl.load_mission("hover").admittance.threshold[0]
-    (kink,) = step.kinks(state, None, torch.tensor([threshold, 0.0, 0.0], requires_grad=True))
-    assert kink.law == "soft_threshold"
 
 
 def test_the_example_of_its_page_prints_what_it_says(capsys):

@@ -10,7 +10,6 @@ from tandemlift.analysis.logs.log import (
     IMU,
     JOINTS,
     MOTION,
-    SPEED_COMMANDS,
     STREAMS,
     Log,
     Stream,
@@ -51,14 +50,6 @@ def test_a_perfect_reading_is_the_truth_at_its_stamp_whatever_the_delay(flown, n
     assert np.array_equal(values[later], truth_at(flown, name.removeprefix("measured_"), time[later]))
 
 
-@pytest.mark.parametrize("name", JOINTS)
-def test_joints_on_a_clock_of_their_own_have_its_stamps(flown, name):
-    time, values = log_of(flown)[name]
-    assert np.allclose((time[1:] - 0.001) / 0.005, np.round((time[1:] - 0.001) / 0.005), atol=1e-9)
-    later = time >= 0.0
-    assert np.array_equal(values[later], truth_at(flown, name.removeprefix("measured_"), time[later]))
-
-
 def test_rates_and_duration_are_those_of_the_clocks(flown):
     log = log_of(flown)
     rates = {IMU[0]: 500.0, JOINTS[0]: 200.0, MOTION[0]: 100.0, COMMANDS: 1000.0}
@@ -72,14 +63,6 @@ def test_a_log_of_a_coarse_record_has_the_samples_that_are_in_it():
     time, values = log_of(flight)["measured_rates"]
     assert np.diff(time).min() >= 0.01 - 1e-9
     assert np.isin(values, flight["measured_rates"]).all()
-
-
-def test_speeds_are_those_whose_thrust_is_commanded():
-    flight = tl.fly(tl.load_mission("iris", {"mission.duration": 3.0}))
-    log, rotor = log_of(flight), flight.vehicle.quadrotors[0]
-    limited = np.clip(log[COMMANDS].values, 0.0, rotor.max_thrust)
-    assert np.allclose(rotor.thrust_constant * log[SPEED_COMMANDS].values ** 2, limited)
-    assert log[SPEED_COMMANDS].values.max() > 100.0
 
 
 def test_a_part_keeps_the_clock(flown):

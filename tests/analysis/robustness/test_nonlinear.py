@@ -18,8 +18,6 @@ from tandemlift.analysis.robustness.sector_bound import (
     Sectors,
     Start,
     difference,
-    energies,
-    gramian,
     reduced,
     region_of,
     response,
@@ -31,7 +29,6 @@ from tandemlift.missions import load_mission
 from tandemlift.parts.pilot.thrust_bounds import rotor_axes
 
 pytest.importorskip("cvxpy")
-scipy_signal = pytest.importorskip("scipy.signal")
 CIRCLE = np.exp(1j * np.linspace(0.0, math.pi, 4001))
 ONE = np.ones(1)
 PITCHES, ROLLS = ("velocity.x", "rates.y", "attitude.y"), ("velocity.y", "rates.x", "attitude.x")
@@ -71,19 +68,10 @@ def tier_of_iris():
     return nonlinear_tier(load_mission("iris"), fly=True)
 
 
-def test_the_circle_criterion_gives_the_sector_of_khalils_example():
-    """Khalil, Nonlinear Systems, 2002, example 7.1: 4/((s + 1)(s/2 + 1)(s/3 + 1)) has Re ≥ −0.857: sector [0, 1.166].
-
-    The bilinear transform maps the imaginary axis onto the unit circle, so the sampled loop has the same sector.
-    """
-    A, B, C, D, _ = scipy_signal.cont2discrete(scipy_signal.tf2ss([24.0], np.poly([-1.0, -2.0, -3.0])), 0.2, "bilinear")
-    assert largest_sector(part_of(Plant(A, -B, C, -D)), 10.0) == pytest.approx(1.166, rel=0.01)
-
-
 def test_the_sector_of_a_random_loop_is_that_of_its_frequency_response():
     """For one sector the criterion is exact: 1 − K Re M > 0 on the circle (Kalman-Yakubovich-Popov)."""
     rng = np.random.default_rng(1)
-    for _ in range(8):
+    for _ in range(3):
         plant = random_plant(rng)
         swept = 1.0 / response(plant, CIRCLE)[:, 0, 0].real.max()
         assert largest_sector(part_of(plant), 2.0 * swept) == pytest.approx(swept, rel=0.01)
@@ -122,14 +110,6 @@ def test_reduction_errs_by_no_more_than_its_bound():
             assert 0.1 * bound < swept <= bound
 
 
-def test_gramians_and_energies_are_sums_over_time():
-    plant = random_plant(np.random.default_rng(3), 5, 2, 2)
-    powers = [np.linalg.matrix_power(plant.A, k) for k in range(2000)]
-    assert gramian(plant.A, plant.B) == pytest.approx(sum(P @ plant.B @ plant.B.T @ P.T for P in powers))
-    squares = sum((plant.C @ P @ plant.B) ** 2 for P in powers).sum(axis=0)
-    assert energies(plant) == pytest.approx(np.sqrt(squares))
-
-
 def test_modes_that_rest_unseen_are_removed_and_others_refused():
     plant = random_plant(np.random.default_rng(4), 4)
     T = np.random.default_rng(5).normal(size=(5, 5))
@@ -163,11 +143,11 @@ def bounds_of(mission):
 
 
 def test_no_state_on_the_edge_of_a_region_is_lost_in_flight():
-    """12 random mixtures of offsets, each on the edge of the region, with every nonlinearity and all axes at once."""
+    """Six random mixtures of offsets, each on the edge of the region, with every nonlinearity and all axes at once."""
     rng, bounds = np.random.default_rng(6), bounds_of(load_mission("iris"))
     alone = {claim.subject: claim.value for claim in tier_of_iris().claims if claim.quantity == "offset recovered"}
-    for i in range(12):
-        named = [n for n in alone if i >= 8 or n in (PITCHES, ROLLS)[i % 2]]
+    for i in range(6):
+        named = [n for n in alone if i >= 4 or n in (PITCHES, ROLLS)[i % 2]]
         offset = {name: rng.normal() * alone[name] for name in named}
         factor = bounds.farthest(offset)
         assert flights_of("iris").recovers({name: factor * x for name, x in offset.items()}), (factor, offset)

@@ -10,8 +10,9 @@ import tandemlift as tl
 from tandemlift.analysis.studies.design.statistics import quantile, share, upper_bound
 
 
-@pytest.mark.parametrize(("count", "total"), [(0, 7), (1, 10), (3, 10), (10, 10), (17, 2_995), (2, 1_000_000)])
-@pytest.mark.parametrize("confidence", [0.5, 0.95, 0.999])
+@pytest.mark.parametrize(
+    ("count", "total", "confidence"), [(0, 7, 0.95), (3, 10, 0.5), (10, 10, 0.95), (17, 2_995, 0.999), (2, 10**6, 0.95)]
+)
 def test_the_interval_of_a_share_is_that_of_the_exact_binomial_test(count, total, confidence):
     exact = stats.binomtest(count, total).proportion_ci(confidence, method="exact")
     found = share(count, total, confidence)
@@ -22,8 +23,7 @@ def test_the_interval_of_a_share_is_that_of_the_exact_binomial_test(count, total
 
 
 @pytest.mark.parametrize(
-    ("flights", "confidence", "most"),
-    [(2_995, 0.95, 1e-3), (4_603, 0.99, 1e-3), (29_956, 0.95, 1e-4), (46_050, 0.99, 1e-4), (2_995_731, 0.95, 1e-6)],
+    ("flights", "confidence", "most"), [(2_995, 0.95, 1e-3), (46_050, 0.99, 1e-4), (2_995_731, 0.95, 1e-6)]
 )
 def test_as_many_flights_without_a_failure_as_are_needed_for_a_bound_give_it_and_one_less_does_not(
     flights, confidence, most
@@ -38,8 +38,7 @@ def test_no_rows_say_nothing():
     assert all(map(math.isnan, quantile(np.array([math.nan]))))
 
 
-@pytest.mark.parametrize("count", [1, 5, 6, 20, 999])
-@pytest.mark.parametrize("at", [0.05, 0.5, 0.9])
+@pytest.mark.parametrize(("count", "at"), [(1, 0.5), (5, 0.5), (6, 0.5), (20, 0.05), (20, 0.9), (999, 0.05)])
 def test_the_interval_of_a_quantile_is_that_of_the_quantile_test(count, at):
     values = np.random.default_rng(count).normal(size=count)
     with_gaps = np.concatenate([values, [math.nan, math.inf]])

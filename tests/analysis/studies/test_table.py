@@ -8,7 +8,8 @@ import pytest
 from small_studies import GUSTS, flown, without_file
 
 import tandemlift as tl
-from tandemlift.analysis.studies.dataset import _axis
+from tandemlift.analysis.studies.dataset import _axis, study_html
+from tandemlift.analysis.studies.study import mission_of_row
 from tandemlift.analysis.studies.table import load_study
 
 
@@ -44,15 +45,11 @@ def test_the_columns_that_vary_are_named_grid_before_draws(gusts):
     assert gusts.grid == ("admittance.damping",)
 
 
-def test_pandas_and_numpy_get_the_same_numbers(gusts):
+def test_pandas_and_numpy_get_the_same_numbers_and_chosen_columns_their_order(gusts):
     work = gusts.table["human_work_j"].to_pylist()
     assert gusts.to_pandas()["human_work_j"].tolist() == work
     assert gusts.values("human_work_j").tolist() == work
-
-
-def test_chosen_columns_come_in_the_order_asked_for_and_alone(gusts):
     assert gusts.read(["outcome", "row"], coded=True).column_names == ["outcome", "row"]
-    assert not [name for name in gusts.table.column_names if name.startswith("flight.")]
 
 
 def test_the_grid_of_xarray_has_each_row_at_its_place(gusts):
@@ -69,26 +66,17 @@ def test_the_grid_of_xarray_has_each_row_at_its_place(gusts):
         assert at["mission.seed"].item() == row["seed"]
 
 
-def test_values_that_are_lists_are_counted_along_their_axis(tmp_path):
-    pushes = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0]]
-    study = {"name": "lists", "missions": ["one-push"]}
-    data = flown(
-        {"study": study, "set": {"mission.duration": 0.1}, "grid": {"pushes.0.force": pushes}}, tmp_path / "lists"
-    ).to_xarray()
-    assert dict(data.sizes) == {"pushes.0.force": 2}
-    assert data["pushes.0.force.1"].values.tolist() == [0.0, 2.0]
+def test_values_that_are_lists_are_counted_along_their_axis_and_named_where_some_are_none():
+    assert _axis("key", [[1.0, 0.0], [0.0, 2.0]])["key.1"] == ("key", [0.0, 2.0])
+    mixed = [{"a": 1.0, "b": 2.0}, [3.0, 4.0]]
+    assert _axis("key", mixed) == {"key": ("key", [str(value) for value in mixed])}
+    assert _axis("key", [[1.0], [2.0, 3.0]]) == {"key": ("key", ["[1.0]", "[2.0, 3.0]"])}
 
 
 def test_by_default_the_grid_has_all_numbers_and_outcomes_and_no_texts_of_findings(gusts):
     names = set(gusts.to_xarray().data_vars)
     assert {"outcome", "human_work_j", "final_position_m.0"} <= names
     assert not names & {"findings", "events"}
-
-
-def test_values_of_which_some_are_no_lists_are_named_along_their_axis():
-    mixed = [{"a": 1.0, "b": 2.0}, [3.0, 4.0]]
-    assert _axis("key", mixed) == {"key": ("key", [str(value) for value in mixed])}
-    assert _axis("key", [[1.0], [2.0, 3.0]]) == {"key": ("key", ["[1.0]", "[2.0, 3.0]"])}
 
 
 def test_a_column_that_the_flights_of_one_file_do_not_have_is_null_there(tmp_path):
@@ -131,24 +119,6 @@ def test_files_of_other_studies_beside_the_chunks_are_not_read(gusts, copy):
     assert load_study(copy).table.equals(gusts.table)
 
 
-@pytest.mark.parametrize("left", [0, 3, 2_000, -1])
-def test_a_file_cut_short_is_named_when_it_is_read(gusts, copy, left):
-    path = copy / gusts.files[1].path.relative_to(gusts.folder)
-    path.write_bytes(path.read_bytes()[:left])
-    study = load_study(copy)
-    with pytest.raises(tl.InputError, match=rf"{path.name} is damaged"):
-        study.read(["row"])
-
-
-def test_a_file_with_a_hole_is_named_when_it_is_read(gusts, copy):
-    path = copy / gusts.files[1].path.relative_to(gusts.folder)
-    content = path.read_bytes()
-    path.write_bytes(content[:4] + bytes(len(content) - 8) + content[-4:])
-    study = load_study(copy)
-    with pytest.raises(tl.InputError, match=rf"{path.name} is damaged"):
-        study.read(["row"])
-
-
 def test_a_folder_that_is_no_study_is_refused(tmp_path):
     with pytest.raises(tl.InputError, match="is not the folder of a study"):
         load_study(tmp_path)
@@ -161,6 +131,7 @@ def test_a_folder_that_is_no_study_is_refused(tmp_path):
         (lambda study: study.values("outcome"), "column 'outcome' holds texts"),
         (lambda study: study.mission(144), "row = 144: must be a whole number from 0 to 143"),
         (lambda study: study.channels(-1), "row = -1: must be"),
+        (lambda study: mission_of_row(study.folder, 144), "row 144: the study in .* has rows 0 to 143"),
     ],
 )
 def test_what_is_not_there_is_said(gusts, ask, answer):
@@ -195,3 +166,6 @@ def test_a_notebook_shows_a_short_table(gusts):
     shown = gusts._repr_html_()
     assert "<b>gusts</b>: 144 rows" in shown
     assert "<td>flying</td><td>144</td><td>100 %</td>" in shown
+    many = study_html("many", 144, 144, [f"key{i}" for i in range(10)], gusts.table)
+    assert many.count("<code>") == 8
+    assert "</code> and 2 more</p>" in many

@@ -1,21 +1,29 @@
-"""What a report takes from the rows of a study: quantities, groups, the worst rows, and medians over maps."""
+"""A report's view of the rows of a study: quantities, groups, and medians over maps."""
 
 import numpy as np
 import pandas as pd
 import pytest
-from small_studies import GUSTS, flown
+from small_studies import GUSTS, made_up
 
 import tandemlift as tl
 from tandemlift.analysis.studies.study_rows import Quantity, StudyRows, quantity_named, telling, usual_quantities
-from tandemlift.analysis.studies.worst import worst_rows
 from tandemlift.pictures.report.study.maps import axis_of, bad_shares, map_columns, medians
 
 COLUMNS = ("row", "wind.velocity.0", "outcome", "position_rmse_m.0", "position_rmse_m.1", "human_work_j", "steps")
 
 
+def measured(rows):
+    """Made-up results: the heavier, the worse."""
+    texts = {"outcome": "flying", "reason": "", "finding_kinds": "", "findings": "[]", "events": "[]"}
+    error = [row.varied["plant.mass_scale"] for row in rows]
+    numbers = {"position_rmse_m.0": error, "human_work_j": [1.0 * row.number for row in rows]}
+    return {name: [text] * len(rows) for name, text in texts.items()} | numbers
+
+
 @pytest.fixture(scope="module")
 def rows(tmp_path_factory):
-    return StudyRows(flown(GUSTS, tmp_path_factory.mktemp("studies") / "gusts"), ["position_rmse_m", "human_work_j"])
+    study = made_up(GUSTS, tmp_path_factory.mktemp("studies") / "gusts", measured)
+    return StudyRows(study, ["position_rmse_m", "human_work_j"])
 
 
 def test_a_metric_is_named_as_a_whole_or_by_an_entry():
@@ -61,41 +69,6 @@ def test_the_groups_are_those_of_pandas(rows):
     assert len(rows.groups) == 4
 
 
-def changed(rows, bad, **values):
-    """The rows with other outcomes and values."""
-    copy = object.__new__(StudyRows)
-    copy.__dict__ = {**rows.__dict__, "values": {**rows.values, **values}}
-    codes, names = rows.labels["outcome"]
-    codes = codes.copy()
-    codes[list(bad)] = [len(names) + list(dict.fromkeys(bad.values())).index(name) for name in bad.values()]
-    names = (*names, *dict.fromkeys(bad.values()))
-    copy.labels = {**rows.labels, "outcome": rows.labels["outcome"]._replace(codes=codes, names=names)}
-    copy.__dict__.pop("bad", None)
-    return copy
-
-
-def test_failed_flights_are_the_worst_then_values_of_each_quantity_in_turn_and_refused_rows_never(rows):
-    spread = np.arange(144.0)
-    found = changed(
-        rows,
-        {5: "crashed", 9: "diverged", 3: "not-lifted", 80: "crashed", 143: "refused"},
-        position_rmse_m=np.where(np.isin(np.arange(144), [3, 5, 9, 80, 143]), np.nan, spread),
-        human_work_j=np.where(np.isin(np.arange(144), [3, 5, 9, 80, 143]), np.nan, -spread),
-    )
-    worst = worst_rows(found, 8)
-    assert [row.place for row in worst] == [9, 5, 80, 3, 142, 0, 141, 1]
-    assert [row.quantity and row.quantity.name for row in worst[3:6]] == [None, "position_rmse_m", "human_work_j"]
-
-
-def test_of_many_failed_flights_some_leave_room_for_the_worst_values(rows):
-    bad = dict.fromkeys(range(50), "crashed")
-    values = np.where(np.arange(144) < 50, np.nan, np.arange(144.0))
-    worst = worst_rows(changed(rows, bad, position_rmse_m=values, human_work_j=-values))
-    assert [row.quantity is None for row in worst] == [True] * 8 + [False] * 2
-    everything = changed(rows, dict.fromkeys(range(144), "crashed"), **dict.fromkeys(rows.values, np.full(144, np.nan)))
-    assert len(worst_rows(everything)) == 10
-
-
 def test_medians_and_shares_of_cells_are_those_of_pandas():
     numbers = np.random.default_rng(3)
     cell, values = numbers.integers(-1, 6, 500), numbers.normal(size=500)
@@ -117,6 +90,4 @@ def test_a_grid_has_a_cell_for_each_value_and_draws_have_bins(rows):
 
 
 def test_a_map_is_over_the_grid_first_and_then_over_what_matters_most(rows):
-    shares = rows.ranked[next(iter(rows.ranked))]
-    drawn = max(shares.keys() - {"admittance.damping"}, key=lambda name: abs(shares[name]))
-    assert map_columns(rows) == ["admittance.damping", drawn]
+    assert map_columns(rows) == ["admittance.damping", "plant.mass_scale"]

@@ -6,9 +6,8 @@ from scipy.integrate import solve_ivp
 from validate import main
 from validation.census import Census
 from validation.chapters import Row, table
-from validation.persons import random_persons
 from validation.rows import below, true_yielding
-from validation.scenarios import WINDY, Bench, drawn, mission
+from validation.scenarios import WINDY, Bench, mission
 
 import tandemlift as tl
 from tandemlift.flight.record import Flight
@@ -46,13 +45,6 @@ def test_the_unfiltered_admittance_is_that_of_the_true_push():
 
     solution = solve_ivp(rate, (0.0, 40.0), np.zeros(6), t_eval=time, rtol=1e-8, atol=1e-10, max_step=0.05)
     assert np.abs(true_yielding(flight) - solution.y[:3].T).max() < 2e-3  # m: a force held over a step
-
-
-def test_what_is_drawn_is_the_same_again_and_differs_from_draw_to_draw():
-    one, again = (drawn(np.random.default_rng(1), 0) for _ in range(2))
-    assert one == again
-    assert drawn(np.random.default_rng(2), 0) != one
-    assert len({p.person.delay for p in random_persons("zigzag", 20)}) > 3
 
 
 def test_the_wind_of_the_table_is_three_newtons_along_x_and_y():

@@ -16,7 +16,7 @@ from tandemlift.engines.models.camera import camera_of
 from tandemlift.engines.models.visuals import SUN
 from tandemlift.pictures.drawing import studio
 from tandemlift.pictures.drawing.film import Animation, Film, Shot, look_at, picture, render
-from tandemlift.pictures.drawing.ground import HAZE, ZENITH, floor, grid, rgb, shadow_on, sky
+from tandemlift.pictures.drawing.ground import HAZE, grid, rgb, shadow_on
 from tandemlift.pictures.drawing.stage import FlightStage
 
 TINY = (96, 54)
@@ -43,7 +43,7 @@ def seen(view, size, point):
     return np.array(size) / 2.0 + view.focal * np.array([away @ right, -(away @ view.up)]) / (away @ ahead)
 
 
-@pytest.mark.parametrize("name", ["follow", "overview", "side", "30,40", "-120,12.5,6"])
+@pytest.mark.parametrize("name", ["follow", "side", "-120,12.5,6"])
 def test_the_arrow_of_a_push_appears_where_a_pinhole_camera_sees_it(flight, name):
     size = (480, 270)
     film = Film(flight, camera_of(name), size)
@@ -82,15 +82,6 @@ def test_the_lines_of_the_grid_stand_at_the_multiples_of_its_cells_and_fade_with
     assert dark[away < 6.0].min() > dark[away > 40.0].max()
 
 
-def test_floor_and_sky_meet_in_haze():
-    view = look_at(np.array([0.0, 0.0, 1.0]), 0.3, 0.4, 5.0, 640, 360)
-    ground, heaven = floor(view, 0.0), sky(view)
-    np.testing.assert_allclose(ground.points[:, 2], 0.0)
-    np.testing.assert_allclose(ground.colors[-1], rgb(HAZE), atol=0.5)
-    np.testing.assert_allclose(heaven.colors[0], rgb(HAZE))
-    np.testing.assert_allclose(heaven.colors[-1], rgb(ZENITH))
-
-
 def test_the_arrow_of_a_push_starts_on_the_line_along_which_it_acts(flight):
     point, k = np.array([0.0, 0.7, 0.1]), int(np.argmin(np.abs(flight.time - 3.0)))
     moment = {"push_moment": np.cross(point, flight["push_force"])}  # level within milliradians
@@ -117,20 +108,13 @@ def test_a_picture_is_the_same_to_the_last_byte_and_shows_the_push(flight, tmp_p
     assert not reddish(np.asarray(picture(flight, Shot(time=0.5, size=TINY, camera=camera_of("side"))))).any()
 
 
-def test_walls_are_seen_and_seen_through(flight):
-    walls = {"walls": [{"start": [-3.0, -1.6], "end": [3.0, -1.6], "top": 2.0}]}
-    shot = Shot(size=TINY, camera=camera_of("side"))
-    free = np.asarray(picture(flight, shot)).astype(int)
-    walled = np.asarray(picture(dataclasses.replace(flight, mission=flight.mission | walls), shot)).astype(int)
-    changed = np.abs(walled - free).max(axis=-1) > 8
-    assert changed.mean() > 0.3
-    assert reddish(walled).any()  # the arrow behind the wall
-
-
-def test_walls_and_discs_are_blended_in_the_order_that_depth_peeling_finds_for_each_pixel(flight):
+def test_walls_are_seen_through_and_blended_in_the_order_that_depth_peeling_finds_for_each_pixel(flight):
     walls = {"walls": [{"start": [-3.0, y], "end": [3.0, y], "top": 2.0} for y in (-1.6, 1.6)]}
     film = Film(dataclasses.replace(flight, mission=flight.mission | walls), camera_of("side"), (320, 180))
     drawn = np.asarray(film.picture(3.0)).astype(int)
+    free = np.asarray(picture(flight, Shot(time=3.0, size=(320, 180), camera=camera_of("side")))).astype(int)
+    assert (np.abs(drawn - free).max(axis=-1) > 8).mean() > 0.3
+    assert reddish(drawn).any()  # the arrow behind the wall
     renderer = film._studio._plotter.renderer
     renderer.UseDepthPeelingOn()
     renderer.SetMaximumNumberOfPeels(40)
@@ -139,10 +123,10 @@ def test_walls_and_discs_are_blended_in_the_order_that_depth_peeling_finds_for_e
     assert (np.abs(drawn - peeled).max(axis=-1) > 2).sum() < 20  # at edges; an average of all layers: 137 pixels
 
 
-@pytest.mark.parametrize("name", ["follow", "overview", "front", "side", "top", "30,40", "-120,12.5,6"])
-def test_every_camera_shows_the_vehicle(flight, name):
-    image = np.asarray(picture(flight, Shot(size=TINY, camera=camera_of(name)))).astype(int)
-    assert (image.min(axis=-1) < 90).sum() > 10  # its dark parts
+def test_every_camera_shows_the_vehicle(flight):
+    for name in ("overview", "front", "top", "30,40"):
+        image = np.asarray(picture(flight, Shot(size=TINY, camera=camera_of(name)))).astype(int)
+        assert (image.min(axis=-1) < 90).sum() > 10, name  # its dark parts
 
 
 def test_an_animation_lasts_as_long_as_it_says(flight, tmp_path):
@@ -170,8 +154,7 @@ def test_a_flight_that_diverged_is_drawn_as_far_as_it_went(flight):
 @pytest.mark.parametrize(
     ("shot", "name", "says"),
     [
-        (Shot(time=7.0), "a.png", r"time 7 s is outside of the flight, 0 s to 6 s"),
-        (Shot(time=float("nan")), "a.png", "time nan s is outside"),
+        (Shot(time=float("nan")), "a.png", "time nan s is outside of the flight, 0 s to 6 s"),
         (Shot(start=3.0, end=2.0), "a.gif", "its end before its start"),
         (Shot(speed=0.002), "a.gif", "more than the 3000 of one animation"),
         (Shot(fps=float("nan")), "a.gif", "fps nan must be from 1 to 50"),
@@ -186,7 +169,7 @@ def test_what_cannot_be_drawn_is_refused_with_the_reason_and_no_file(flight, tmp
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize("text", ["folow", "1", "1,2,3,4", "1,x", "0,90", "0,1", "nan,20", "0,20,0"])
+@pytest.mark.parametrize("text", ["folow", "1,2,3,4", "1,x", "0,90", "nan,20", "0,20,0"])
 def test_a_camera_that_is_none_is_refused_with_what_there_is(text):
     with pytest.raises(tl.InputError, match=r"camera '.*AZIMUTH,ELEVATION\[,DISTANCE\]"):
         camera_of(text)

@@ -31,15 +31,13 @@ def draw(flight: Flight) -> Figure:
 PROGRAM = """
 from pathlib import Path
 import tandemlift as tl
-from tandemlift.pictures.figures.registry import figures, figures_for, save_figures
+from tandemlift.pictures.figures.registry import figures, figures_for, save_flight_figure
 from tandemlift.pictures.report.flight_report import write_report
 
 windy = {"wind.model": "air", "wind.velocity": [3.0, -4.0, 0.0]}
 calm, flight = (tl.fly(tl.load_mission("paper", {"mission.duration": 0.05, **more})) for more in ({}, windy))
-files = [file.name for file in save_figures(flight, "windy")]
-page = write_report(flight, "windy", "windy.html").read_text("utf-8")
-assert list(figures())[-1] == "air"
-assert files[-2:] == ["air.png", "air.pdf"]
+page = write_report(flight, save_flight_figure(flight, "air", Path()), "windy.html").read_text("utf-8")
+assert list(figures())[-1] == list(figures_for(flight))[-1] == "air"
 assert 'id="air"' in page and "Speed of the air." in page and "A panel over time of the air’s speed." in page
 assert "air" not in figures_for(calm)
 print("drawn")

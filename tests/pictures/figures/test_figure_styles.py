@@ -11,7 +11,7 @@ from PIL import Image
 
 import tandemlift as tl
 from tandemlift.core.errors import InputError
-from tandemlift.pictures.drawing.figure import DARK, IEEE, STYLES, current_style, figure_style
+from tandemlift.pictures.drawing.figure import DARK, IEEE, current_style, figure_style
 from tandemlift.pictures.drawing.style import save
 from tandemlift.pictures.figures.registry import figures, save_figures
 
@@ -58,11 +58,6 @@ def test_a_slide_fills_a_screen_and_a_figure_with_many_rows_is_a_larger_slide(fl
     assert many.style.dots(many.get_figwidth()) * many.get_figwidth() == pytest.approx(1920.0)
     data = save(few, tmp_path / "slide.png").read_bytes()
     assert struct.unpack(">II", data[16:24]) == (1920, 1080)
-
-
-def test_elsevier_has_one_and_a_half_columns_for_what_is_narrow():
-    style = STYLES["elsevier"]
-    assert [style.width_for(width) for width in (3.0, 4.0, 6.0, 9.0)] == [*style.widths, style.page]
 
 
 def test_the_dark_style_is_drawn_on_dark_paper_and_nothing_is_black_or_white(flight, tmp_path):

@@ -49,7 +49,7 @@ def legend(figure):
     return {text.get_text(): to_hex(line.get_color()) for text, line in zip(one.texts, one.get_lines(), strict=True)}
 
 
-@pytest.mark.parametrize("channel", ["position", "position_error", "euler", "thrust", "rotor_thrusts"])
+@pytest.mark.parametrize("channel", ["position_error", "euler", "rotor_thrusts"])
 def test_each_panel_has_a_component_of_each_flight(flights, channel):
     figure = tl.plot(flights, channel)
     columns = [f[channel].reshape(len(f.time), -1).T * AS_DRAWN.get(channel, 1.0) for f in flights.values()]
@@ -98,7 +98,7 @@ def test_paths_are_drawn_where_a_figure_of_one_flight_draws_them(flights):
     assert all(a == pytest.approx(b) for a, b in zip(alone, drawn(tl.plot(flights, "path")), strict=True))
 
 
-@pytest.mark.parametrize("name", ["path", "push", "joints"])
+@pytest.mark.parametrize("name", ["path", "joints"])
 def test_a_figure_is_drawn_whole_whatever_the_flights(name, unlike):
     figure = tl.plot(unlike, name)
     width, height = figure.get_size_inches()

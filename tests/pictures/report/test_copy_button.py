@@ -1,18 +1,30 @@
 """The copy buttons of a study's page, pressed in a browser that opened it from disk, without a network."""
 
 import pytest
-from small_studies import GUSTS, flown
+from small_studies import made_up
 
 from tandemlift.pictures.report.study.study_report import write_study_report
 
 pytest.importorskip("playwright")
+STUDY = {
+    "study": {"name": "gusts", "missions": ["one-push"], "draws": 12},
+    "draw": {"plant.mass_scale": {"distribution": "uniform", "low": 0.9, "high": 1.2}},
+}
 SIZES = {"desktop": {"width": 1100, "height": 800}, "phone": {"width": 360, "height": 740}}
+
+
+def measured(rows):
+    """Made-up results: the higher its number, the more work a row took."""
+    columns = {"outcome": "landed", "reason": "", "finding_kinds": "", "findings": "[]", "events": "[]"}
+    return {name: [text] * len(rows) for name, text in columns.items()} | {
+        "human_work_j": [1.0 * r.number for r in rows]
+    }
 
 
 @pytest.fixture(scope="module")
 def path(tmp_path_factory):
     folder = tmp_path_factory.mktemp("a study's folder") / "gusts"  # a name that a shell would take apart
-    return write_study_report(flown(GUSTS, folder), folder / "report.html")
+    return write_study_report(made_up(STUDY, folder, measured), folder / "report.html")
 
 
 @pytest.fixture(scope="module")
@@ -59,9 +71,8 @@ def test_a_press_copies_the_command_that_flies_the_row(browser, path, clipboard)
 
 
 @pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_the_page_fits_the_screen_and_every_button_can_be_pressed(browser, path, size, scheme):
-    page = opened(browser, path, viewport=SIZES[size], color_scheme=scheme)
+def test_the_page_fits_the_screen_and_every_button_can_be_pressed(browser, path, size):
+    page = opened(browser, path, viewport=SIZES[size])
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
     boxes = [button.bounding_box() for button in page.locator(".command button").all()]
     assert len(boxes) == 11

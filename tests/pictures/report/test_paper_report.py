@@ -15,11 +15,10 @@ from tandemlift.apps.cli.main import cli
 from tandemlift.missions import tables_of
 from tandemlift.pictures.report import paper_report
 from tandemlift.pictures.report.paper_claims import claims, gaussian_displacement
-from tandemlift.pictures.report.paper_figures import DATA, errata, open_settings, paper_figures, write_drawing
+from tandemlift.pictures.report.paper_figures import DATA, errata, open_settings, write_drawing
 from tandemlift.pictures.report.paper_report import PaperFlights, typeset
 from tandemlift.pictures.report.paper_tables import agrees, nomenclature, paper_tables, value_at
 
-PAPER = ROOT.parent / "shared" / "paper.tex"
 SHORT = {"mission.duration": 16.0, "mission.log_interval": 0.05}
 SLOW = ("reference", "tracking", "inputs", "interaction")  # have tests of their own; another stands for them
 TABLES = ["I", "II", "III"]
@@ -63,17 +62,6 @@ def pdf(folder):
     """The report as PDF."""
     typeset(folder, folder / "paper.pdf")
     return folder / "paper.pdf"
-
-
-def test_every_figure_and_table_of_the_paper_has_its_place():
-    assert [figure.number for figure in paper_figures()] == list(range(1, 10))
-    mission = nested_tables("paper")
-    assert [nomenclature()["number"], *(table.number for table in paper_tables(mission))] == TABLES
-    if not PAPER.is_file():
-        pytest.skip(f"{PAPER} is not beside this checkout")
-    text = re.sub(r"(?<!\\)%.*", "", PAPER.read_text("utf-8"))
-    assert len(re.findall(r"\\label\{fig\d\}", text)) == 9
-    assert len(re.findall(r"\\label\{tab:", text)) == len(TABLES)
 
 
 def test_the_numbers_of_the_tables_are_those_of_the_mission():
@@ -154,28 +142,6 @@ def test_the_pdf_has_the_figures_tables_and_errata(pdf):
     for erratum in errata():
         assert erratum.about.replace("_", "") in text.replace("\u200b", "").replace("_", "").replace("\n", "")
     assert "3.227327" in text
-    fonts = {str(font) for page in pages for font in _fonts(page["/Resources"])}
-    assert fonts
-    assert "not embedded" not in fonts
-    assert not any(_pictures(page["/Resources"]) for page in pages)
-
-
-def _fonts(resources):
-    """The names of the fonts below some resources, or that one is not embedded."""
-    for font in resources.get("/Font", {}).values():
-        font = font.get_object()
-        inner = font["/DescendantFonts"][0].get_object() if "/DescendantFonts" in font else font
-        if inner["/Subtype"] != "/Type3":
-            files = inner["/FontDescriptor"].get_object()
-            yield inner["/BaseFont"] if any(f"/FontFile{n}" in files for n in ("", 2, 3)) else "not embedded"
-    for part in resources.get("/XObject", {}).values():
-        yield from _fonts(part.get_object().get("/Resources", {}))
-
-
-def _pictures(resources):
-    """Whether there are pictures of pixels below some resources."""
-    parts = [part.get_object() for part in resources.get("/XObject", {}).values()]
-    return any(part["/Subtype"] == "/Image" or _pictures(part.get("/Resources", {})) for part in parts)
 
 
 def test_the_tables_are_written_for_spreadsheets_and_papers(folder):

@@ -4,19 +4,19 @@ import dataclasses
 import html
 import math
 import re
-import shutil
 import tomllib
 
 import markupsafe
 import numpy as np
 import pytest
 from html_page import check_page
+from PIL import Image
 
 import tandemlift as tl
 from tandemlift.core.findings import Finding
 from tandemlift.flight.record import Ending, Flight
 from tandemlift.missions import tables_of
-from tandemlift.pictures.figures.registry import captions, figures_for, save_figures
+from tandemlift.pictures.figures.registry import captions, figures_for
 from tandemlift.pictures.report.flight_report import write_flight_files, write_report
 from tandemlift.pictures.report.page import number, split_unit
 
@@ -45,19 +45,16 @@ def windy():
 
 @pytest.fixture(scope="module")
 def figures(paper, tmp_path_factory):
+    """Blank pictures of the size of the flight's figures, and one of a figure that only an earlier flight had."""
     folder = tmp_path_factory.mktemp("figures")
-    save_figures(paper, folder)
+    for name in (*figures_for(paper), "push"):
+        Image.new("RGB", (2100, 1200)).save(folder / f"{name}.png")
     return folder
 
 
 @pytest.fixture(scope="module")
-def report(paper, figures, tmp_path_factory):
-    return write_report(paper, figures, tmp_path_factory.mktemp("report") / "report.html")
-
-
-@pytest.fixture(scope="module")
-def page(report):
-    return check_page(report)
+def page(paper, figures, tmp_path_factory):
+    return check_page(write_report(paper, figures, tmp_path_factory.mktemp("report") / "report.html"))
 
 
 @pytest.fixture
@@ -71,11 +68,10 @@ def value_of(text):
     return float(text.replace(" × 10", "e").translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")))
 
 
-def test_the_report_needs_nothing_but_itself(page, report):
+def test_the_report_needs_nothing_but_itself(page):
     outside = [(tag, k, v) for tag, a in page.elements for k, v in a.items() if k in ("src", "href", "srcset", "data")]
     assert all(value.startswith("data:image/png;base64,") for _, _, value in outside)
     assert not re.search(r"https?:|@import|url\(|<script|<link|<iframe", page.text, re.IGNORECASE)
-    assert report.stat().st_size < 3_000_000
 
 
 def test_the_page_says_its_language_its_title_and_fits_a_phone(page):
@@ -88,7 +84,7 @@ def test_every_figure_is_there_with_its_size_a_description_and_a_caption(page, p
     images, names = page.all("img"), list(figures_for(paper))
     assert [figure["id"] for figure in page.all("figure")] == names
     assert [image["alt"] for image in images] == [captions()[name].alt for name in names]
-    assert all(300 < int(image["width"]) < 1100 and 200 < int(image["height"]) < 1100 for image in images)
+    assert {(image["width"], image["height"]) for image in images} == {("945", "540")}
     for name in names:
         assert html.escape(captions()[name].text) in page.text
 
@@ -135,13 +131,6 @@ def test_the_set_up_of_a_flight_without_parts_says_so_and_an_older_mission_has_o
     newer = ("sensors", "wind", "ground", "walls", "faults", "pilot", "estimator")
     older = {name: table for name, table in paper.mission.items() if name not in newer}
     assert dict(row for row in write(dataclasses.replace(paper, mission=older)).rows if len(row) == 2) == told
-
-
-def test_figures_that_an_earlier_flight_left_are_not_shown(paper, figures, tmp_path, write):
-    folder = tmp_path / "figures"
-    shutil.copytree(figures, folder)
-    shutil.copy(folder / "joints.png", folder / "push.png")
-    assert [figure["id"] for figure in write(paper, folder).all("figure")] == list(figures_for(paper))
 
 
 def test_a_run_removes_the_figures_that_its_flight_does_not_have(paper, tmp_path):
@@ -234,23 +223,12 @@ def test_text_from_outside_is_only_text(paper, write):
     assert str(markupsafe.escape(HOSTILE)) in page.text
 
 
-def test_a_report_without_figures_is_whole(paper, tmp_path, write):
-    assert write(paper, tmp_path / "nowhere").all("figure") == []
-    assert write(paper, []).all("h2") == [{}, {}, {}, {}]
-
-
-def test_figures_may_be_given_as_files(paper, figures, write):
+def test_figures_may_be_given_as_files_and_a_report_without_them_is_whole(paper, figures, tmp_path, write):
     page = write(paper, [figures / "inputs.pdf", figures / "path.png", figures / "reference.png"])
     assert [figure["id"] for figure in page.all("figure")] == ["reference", "path"]
-
-
-def test_a_failure_leaves_the_old_report(paper, tmp_path, monkeypatch):
-    target = tmp_path / "report.html"
-    target.write_text("old")
-    monkeypatch.setattr(type(target), "replace", lambda *_: (_ for _ in ()).throw(OSError("disk full")))
-    with pytest.raises(OSError, match="disk full"):
-        write_report(paper, [], target)
-    assert [(p.name, p.read_text()) for p in tmp_path.iterdir()] == [("report.html", "old")]
+    bare = write(paper, tmp_path / "nowhere")
+    assert bare.all("figure") == []
+    assert bare.all("h2") == [{}, {}, {}, {}]
 
 
 @pytest.mark.parametrize(
@@ -259,11 +237,8 @@ def test_a_failure_leaves_the_old_report(paper, tmp_path, monkeypatch):
         (None, "–"),
         (0.0, "0"),
         (90_000, "90\u202f000"),
-        (0.3, "0.3000"),
         (-1066.27, "−1066"),
-        (12_345.6, "12\u202f346"),
         (3.204e-6, "3.20 × 10⁻⁶"),
-        (-2.5e12, "−2.50 × 10¹²"),
         (float("inf"), "inf"),
         (True, "True"),
     ],
@@ -276,10 +251,7 @@ def test_numbers_are_printed_for_people(value, text):
     ("name", "words", "unit"),
     [
         ("position_rmse_after_10s_m", "Position RMSE after 10 s", "m"),
-        ("velocity_max_error_after_10s_m_s", "Velocity max error after 10 s", "m/s"),
         ("moment_max_abs_after_10s_n_m", "Moment max abs after 10 s", "N m"),
-        ("human_impulse_n_s", "Human impulse", "N s"),
-        ("attitude_rmse_rad", "Attitude RMSE", "rad"),
         ("rotor_saturated_share", "Rotor saturated share", ""),
     ],
 )

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from html_page import check_page
 from scipy import stats
-from small_studies import GUSTS, flown, made_up, without_file
+from small_studies import made_up, without_file
 
 import tandemlift as tl
 from tandemlift.core.findings import FINDING_NAMES
@@ -28,7 +28,7 @@ STUDY = {
 def measured(rows):
     """Made-up results: the heavier, the worse; of every hundred rows one crashes and one is refused."""
     chance = np.random.default_rng(rows[0].number)
-    mass = np.array([row.varied["plant.mass_scale"] for row in rows])
+    mass = np.array([row.varied.get("plant.mass_scale", 1.1) for row in rows])
     place = np.array([row.number % 100 for row in rows])
     flew = place != 50
     outcome = np.select([place == 7, ~flew], ["crashed", "refused"], "landed").tolist()
@@ -179,6 +179,30 @@ def test_chosen_metrics_are_shown_and_no_others(study, tmp_path):
         write_study_report(study, tmp_path / "chosen.html", ["human_wrok_j"])
 
 
+@pytest.mark.parametrize(
+    ("grid", "title"),
+    [
+        ({}, ""),
+        ({"admittance.damping": [5.0, 10.0]}, "Over the parameter"),
+        ({"wind.model": ["none", "air"], "admittance.damping": [5.0, 10.0]}, "Maps"),
+    ],
+)
+def test_small_studies_have_a_page_with_a_map_over_their_grid(grid, title, tmp_path):
+    study = made_up({"study": {"name": "small", "missions": ["one-push"]}, "grid": grid}, tmp_path / "small", measured)
+    page = check_page(write_study_report(study, tmp_path / "report.html"))
+    assert page.row("all rows")[:2] == ["all rows", str(2 ** len(grid))]
+    assert re.findall(r"<b>Figure \d\. (.*)\.</b>", page.text)[1:] == [title] * bool(title)
+
+
+def test_a_study_all_of_whose_flights_failed_has_a_page_with_the_ten_that_failed_first(tmp_path):
+    def crashed(rows):
+        return measured(rows) | {"outcome": ["crashed"] * len(rows)}
+
+    study = made_up({"study": STUDY["study"] | {"draws": 20}, "draw": STUDY["draw"]}, tmp_path / "crashed", crashed)
+    page = check_page(write_study_report(study, tmp_path / "report.html"))
+    assert [row[0] for row in page.rows if row and row[0].isdigit()] == [str(number) for number in range(10)]
+
+
 def test_a_study_that_is_not_finished_says_so_and_an_empty_one_is_refused(study, tmp_path):
     part = without_file(study, 1, tmp_path / "part")
     text = write_study_report(part, tmp_path / "report.html").read_text("utf-8").replace("\u202f", "")
@@ -188,17 +212,3 @@ def test_a_study_that_is_not_finished_says_so_and_an_empty_one_is_refused(study,
     with pytest.raises(tl.InputError, match="no row of the study is flown yet"):
         write_study_report(tl.load_study(part.folder), tmp_path / "none.html")
     assert not (tmp_path / "none.html").exists()
-
-
-@pytest.mark.parametrize("grid", [{}, {"admittance.damping": [5.0, 10.0]}, {"wind.model": ["none", "air"]}])
-def test_small_studies_have_a_page(tmp_path, grid):
-    study = {"name": "small", "missions": ["one-push"]}
-    found = flown({"study": study, "set": {"mission.duration": 0.1}, "grid": grid}, tmp_path / "small")
-    page = check_page(write_study_report(found, tmp_path / "report.html"))
-    assert page.row("all rows")[:2] == ["all rows", str(max(1, len(next(iter(grid.values()), []))))]
-
-
-def test_the_flown_study_of_the_table_s_tests_has_a_page_with_a_map_over_its_grid(tmp_path):
-    study = flown(GUSTS, tmp_path / "gusts")
-    page = check_page(write_study_report(study, tmp_path / "report.html"))
-    assert "<b>Figure 2. Maps.</b>" in page.text

@@ -1,12 +1,10 @@
 """Controllers and recordings that a study holds: they are used from what it holds, and no file is made of them."""
 
 import hashlib
-import json
 import os
 import sys
 import tempfile
 from pathlib import Path
-from subprocess import PIPE
 
 import numpy as np
 import pytest
@@ -22,11 +20,6 @@ from tandemlift.analysis.studies.table import load_study
 from tandemlift.missions.recording import WIDTH, Recording, read_recording, write_recording
 from tandemlift.parts.controllers import CONTROLLERS, controller, file_of
 
-FLY = """
-import sys
-import tandemlift as tl
-print(tl.fly(tl.load_study(sys.argv[1]).mission(0))["position"][-1].tolist())
-"""
 RUN = "from tandemlift.__main__ import main; main()"
 
 
@@ -57,12 +50,6 @@ def own(tmp_path):
 AWAY = {"mission.duration": 0.2, "initial.position": [0.1, 0.0, 0.0]}
 
 
-def in_a_process(shared, *command):
-    """What a process prints that has this folder of temporary files."""
-    command = [sys.executable, "-c", *map(str, command)]
-    return completed(command, stdout=PIPE, text=True, env=os.environ | {"TMPDIR": str(shared)}, check=True).stdout
-
-
 @pytest.mark.parametrize("text", [LAW, PLAIN], ids=["law", "plain"])
 def test_a_controller_is_run_from_the_text_of_the_study_without_a_file(own, text, shared, tmp_path):
     study = flown(own(text), tmp_path / "out")
@@ -71,8 +58,6 @@ def test_a_controller_is_run_from_the_text_of_the_study_without_a_file(own, text
     CONTROLLERS.pop("held")  # as in a new process
     assert tl.fly(load_study(tmp_path / "out").mission(0))["position"][-1].tolist() == position
     assert not Path(file_of(controller("held"))).exists()
-    assert list(shared.iterdir()) == []
-    assert json.loads(in_a_process(shared, FLY, tmp_path / "out")) == position
     assert list(shared.iterdir()) == []
 
 
@@ -91,9 +76,8 @@ def test_a_study_does_not_load_a_controller_anew_that_is_loaded(own, tmp_path):
     assert tl.fly(mission).ending is None
 
 
-@pytest.mark.parametrize("newline", ["\r\n", "\n"])
-def test_a_controller_with_any_ends_of_lines_flies_in_a_study(own, newline, tmp_path):
-    tables = own(PLAIN.replace("\n", newline))
+def test_a_controller_with_windows_ends_of_lines_flies_in_a_study(own, tmp_path):
+    tables = own(PLAIN.replace("\n", "\r\n"))
     assert flown(tables, tmp_path / "out").read(["outcome"])["outcome"].to_pylist() == ["flying"]
 
 
@@ -145,7 +129,8 @@ def test_a_row_with_a_recording_that_is_flown_alone_can_be_flown_anywhere(shared
     open_folder(load_plan(tables), tmp_path / "out")
     (tmp_path / "hand.npz").unlink()
     alone = tmp_path / "alone"
-    in_a_process(shared, RUN, "run", "--from", tmp_path / "out", "--row", 0, "--out", alone, "--no-figures")
+    command = ["run", "--from", tmp_path / "out", "--row", 0, "--out", alone, "--no-figures"]
+    completed([sys.executable, "-c", RUN, *map(str, command)], env=os.environ | {"TMPDIR": str(shared)}, check=True)
     assert list(shared.iterdir()) == []
     again = tl.load_mission(alone / "mission.toml")
     assert np.array_equal(read_recording(again.person.recording).hands, before.hands)

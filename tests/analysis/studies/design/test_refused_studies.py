@@ -42,28 +42,21 @@ def message_of(parts):
 
 
 REFUSED = {  # a study: pieces of its message
-    "no name": ({"study": {"name": ""}}, ["study.name", "1 to 64 letters"]),
     "a path as name": (study(name="../../etc"), ['study.name = "../../etc"', "letters, digits"]),
     "no mission": (study(missions=[]), ["study.missions = []", "at least one"]),
     "an unknown mission": (study(missions=["one-pusch"]), ["one-pusch", "one-push"]),
     "an unknown controller": (study(controllers=["pdi"]), ["pdi", "pid", "study.controllers", "name its file"]),
     "an unknown engine": (study(engines=["mujoko"]), ["mujoko", "mujoco"]),
-    "a mission twice": (study(missions=["hover", "hover"]), ["study.missions", "without repetition"]),
     "an unknown key": (study(drawz=3), ["study.drawz = 3", "unknown", "draws"]),
-    "an unknown table": ({"drew": {}}, ["drew", "unknown", "draw"]),
-    "draws of none": (study(draws=0), ["study.draws = 0", "1"]),
-    "draws in part": (study(draws=2.5), ["study.draws = 2.5"]),
     "too many draws": (study(draws=10**10), ["study.draws = 10000000000", "1000000000"]),
     "an unknown sampling": (study(sampling="sobolev"), ["study.sampling", "sobolev", "sobol", "latin-hypercube"]),
     "sobol without a power of two": (
         {**study(draws=100, sampling="sobol"), **drawn()},
         ["study.draws = 100", "power of two", "64 or 128"],
     ),
-    "sobol of nothing": (study(draws=8, sampling="sobol"), ["study.sampling = 'sobol'", "[draw]"]),
     "persons where nobody is": (study(persons="random"), ["study.persons = 'random'", "one-push", "no person"]),
     "seeds of a seed": ({**study(seeds=3), "set": {"mission.seed": 4}}, ["study.seeds = 3", "[set]", "mission.seed"]),
     "a case twice": ({"cases": [{"name": "a"}, {"name": "a"}]}, ["cases", "without repetition"]),
-    "an unknown key of a case": ({"cases": [{"name": "a", "sett": {}}]}, ["cases.0.sett", "unknown", "set"]),
     "an outcome that is none": ({"keep": {"outcomes": ["crash"]}}, ["keep.outcomes", "crashed", "landed"]),
     "an empty list on the grid": (grid([]), ["grid.plant.mass_scale = []", "at least one value"]),
     "a number on the grid": (grid(1.0), ["grid.plant.mass_scale = 1.0", "low", "count"]),
@@ -71,15 +64,6 @@ REFUSED = {  # a study: pieces of its message
     "a range upside down": (
         grid({"low": 2.0, "high": 1.0, "count": 3}),
         ["plant.mass_scale", "low = 2 below high = 1"],
-    ),
-    "a range of one": (grid({"low": 1.0, "high": 2.0, "count": 1}), ["grid.plant.mass_scale.count = 1", "2"]),
-    "a logarithm of zero": (
-        grid({"low": 0.0, "high": 2.0, "count": 3, "spacing": "log"}),
-        ["plant.mass_scale", "low above 0"],
-    ),
-    "a range with an unknown key": (
-        grid({"low": 1.0, "high": 2.0, "count": 3, "step": 1.0}),
-        ["grid.plant.mass_scale.step = 1.0", "unknown"],
     ),
     "a grid of 1e12": (
         {
@@ -100,14 +84,8 @@ REFUSED = {  # a study: pieces of its message
         ['distribution = "unifrom"', "log-uniform", "'uniform'"],
     ),
     "low above high": (drawn(low=2.0), ["draw.plant.mass_scale", "low = 2 below high = 1.1"]),
-    "an infinite end": (drawn(high=float("inf")), ["draw", "finite numbers", "plant.mass_scale.high is inf"]),
     "an unknown key of a distribution": (drawn(hihg=2.0), ["draw.plant.mass_scale.hihg = 2.0", "unknown", "high"]),
-    "no low": ({"draw": {"a": {"b": {"distribution": "uniform", "high": 1.0}}}}, ["draw.a.b.low", "missing"]),
     "a step that nothing is a multiple of": (drawn(step=10.0), ["draw.plant.mass_scale", "step = 10"]),
-    "a normal of no width": (
-        {"draw": {"a": {"b": {"distribution": "normal", "mean": 1.0, "deviation": 0.0}}}},
-        ["draw.a.b.deviation = 0.0"],
-    ),
     "a normal cut to nothing": (
         {"draw": {"a": {"b": {"distribution": "normal", "mean": 1.0, "deviation": 0.1, "low": 2.0}}}},
         ["draw.a.b", "at least a millionth"],
@@ -130,7 +108,6 @@ REFUSED = {  # a study: pieces of its message
         {"set": {"plant.mass_scale": 1.0}, **drawn()},
         ["draw.plant.mass_scale", "[set] already", "once"],
     ),
-    "a key on the grid and drawn": ({**grid([1.0, 1.1]), **drawn()}, ["draw.plant.mass_scale", "[grid] already"]),
     "a key in a case and drawn": (
         {"cases": [{"name": "a", "set": {"plant": {"mass_scale": 1.1}}}], **drawn(relative=True)},
         ["draw.plant.mass_scale", "[cases: a] already"],
@@ -138,14 +115,6 @@ REFUSED = {  # a study: pieces of its message
     "a key twice in a table": (
         {"set": {"plant.mass_scale": 1.0, "plant": {"mass_scale": 1.1}}},
         ["set.plant.mass_scale = 1.1", "twice"],
-    ),
-    "a key twice on the grid": (
-        {"grid": {"plant.mass_scale": [1.0, 1.1], "plant": {"mass_scale": [1.2]}}},
-        ["grid.plant.mass_scale", "twice"],
-    ),
-    "a key twice drawn": (
-        {"draw": {"plant.mass_scale": UNIFORM, "plant": {"mass_scale": UNIFORM}}},
-        ["draw.plant.mass_scale", "twice"],
     ),
     "a list over its entry": (
         {"set": {"pushes.0.time": 2.0}, **grid([[]], "pushes")},

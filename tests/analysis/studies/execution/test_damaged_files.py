@@ -8,8 +8,8 @@ import pytest
 from study_runs import TWELVE, assert_same_rows, files_of, fly
 
 from tandemlift.analysis.studies.design.study_files import load_plan
-from tandemlift.analysis.studies.execution.checked_file import CheckedFile, DamagedFile
-from tandemlift.analysis.studies.execution.store import StudyFolder, open_folder
+from tandemlift.analysis.studies.execution.checked_file import DamagedFile
+from tandemlift.analysis.studies.execution.store import open_folder
 from tandemlift.analysis.studies.table import load_study
 from tandemlift.core.errors import InputError
 
@@ -51,15 +51,22 @@ def test_no_bit_of_the_rows_can_change_and_be_read_or_taken_for_flown(twelve):
     store = open_folder(load_plan(KEPT), twelve)
     path = store.files.file(name := store.names()[0])
     content = path.read_bytes()
-    for column in pq.read_metadata(path).schema.names[::4]:
+    for column in pq.read_metadata(path).schema.names[::8]:
         path.write_bytes(with_damage_in(path, column))
         assert not store.files.is_flown(name), column
         with pytest.raises(InputError, match=rf"{path.name} is damaged: .* Run the study again: it makes this file"):
             all_columns(twelve)
         path.write_bytes(content)
-    for damaged in (content[:-1], content[: len(content) // 2], b"", content[:4] + content[5:]):
+    for damaged in (
+        content[:-1],
+        content[: len(content) // 2],
+        b"",
+        content[:4] + bytes(len(content) - 8) + content[-4:],
+    ):
         path.write_bytes(damaged)
         assert not store.files.is_flown(name), len(damaged)
+        with pytest.raises(InputError, match=rf"{path.name} is damaged"):
+            all_columns(twelve)
     path.write_bytes(content)
     assert store.files.is_flown(name)
 
@@ -112,11 +119,3 @@ def test_any_reader_of_parquet_reads_the_files_and_finds_checksums_of_pages(twel
     path.write_bytes(with_damage_in(path, "human_work_j"))
     with pytest.raises(OSError, match="CRC"):
         pq.read_table(path, page_checksum_verification=True)
-
-
-def test_a_file_says_which_study_and_sources_it_is_of(whole):
-    path, study = next((whole / "chunks").glob("*.parquet")), load_study(whole)
-    about = CheckedFile(path).about
-    assert about[b"tandemlift.study"].decode() == StudyFolder(whole).digest
-    assert about[b"tandemlift.chunk"].decode() == path.stem
-    assert len(study) == study.plan.count

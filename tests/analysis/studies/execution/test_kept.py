@@ -9,7 +9,7 @@ from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import channel_names, metric_names
 
 
-@pytest.mark.parametrize("name", ["one-push", "zigzag", "rotor-loss", "iris"])
+@pytest.mark.parametrize("name", ["zigzag", "rotor-loss"])
 def test_names_of_metrics_and_channels_are_those_of_the_flight(name):
     mission = tl.load_mission(name, {"mission.duration": 0.1})
     flight, plan = tl.fly(mission), FlightPlan(mission)
@@ -22,9 +22,7 @@ def test_names_of_metrics_and_channels_are_those_of_the_flight(name):
     [
         ({"metrics": ["human_work"]}, "metric of keep.metrics 'human_work'.* Did you mean 'human_work_j'"),
         ({"metrics": ["clearance_min_m"]}, "metric of keep.metrics 'clearance_min_m'; there are position_rmse_m"),
-        ({"metrics": ["wall_s"]}, "metric of keep.metrics 'wall_s'"),
         ({"channels": ["positon"], "every": 2}, "channel of keep.channels 'positon'.* Did you mean 'position'"),
-        ({"channels": ["phase"], "every": 2}, "channel of keep.channels 'phase'"),
     ],
 )
 def test_a_name_that_no_flight_has_is_refused_before_anything_flies(kept, said, tmp_path):
@@ -50,12 +48,7 @@ def test_a_name_that_some_flights_have_is_kept_of_these(tmp_path):
 
 @pytest.mark.parametrize(
     ("asked", "rows"),
-    [
-        ({"every": 3}, [0, 3, 6, 9]),
-        ({"rows": [5, 8]}, [5, 8]),
-        ({"every": 4, "rows": [1], "outcomes": ["crashed"]}, [0, 1, 4, 8]),
-        ({"outcomes": ["flying"]}, list(range(10))),
-    ],
+    [({"every": 4, "rows": [1], "outcomes": ["crashed"]}, [0, 1, 4, 8]), ({"outcomes": ["flying"]}, list(range(10)))],
 )
 def test_channels_are_kept_of_one_row_in_so_many_of_those_named_and_of_those_with_an_outcome(asked, rows, tmp_path):
     study = {

@@ -1,18 +1,20 @@
-"""A study that is killed, stopped, or flown by two processes at once gives the same rows.
+"""A study that is killed, stopped, or flown by several processes, threads or executors gives the same rows."""
 
-At length, it is killed and shared by `python benchmarks/study_scaling.py kills`.
-"""
-
+import multiprocessing
+import os
 import random
 import signal
 import time
-from pathlib import Path
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 import pytest
-from patience import PATIENCE, ended, said, until
-from study_runs import LONGER, assert_same_rows, files_of, fly, started
+from patience import PATIENCE, ended, said
+from study_runs import LONGER, TWELVE, assert_same_rows, files_of, fly, started
 
+from tandemlift.analysis.studies.execution.chunk import sources_digest
 from tandemlift.analysis.studies.execution.running import WAITING
+from tandemlift.analysis.studies.execution.workers import fly_packed
+from tandemlift.core.errors import InputError
 
 SEED = 17
 IN_WORK = 2 * WAITING  # chunks, at most, that a process on two threads has in work
@@ -27,7 +29,7 @@ def whole(tmp_path_factory):
 
 def test_a_study_that_is_killed_goes_on_with_the_chunks_that_are_missing(whole, tmp_path):
     moments = random.Random(SEED)
-    for _ in range(3):
+    for _ in range(2):
         process = started(LONGER, tmp_path)
         said(process, "begun")
         time.sleep(moments.uniform(0.0, 1.0))
@@ -47,19 +49,6 @@ def test_two_processes_on_one_folder_share_its_chunks(whole, tmp_path):
     assert_same_rows(whole, tmp_path)
 
 
-def test_a_process_that_sleeps_has_its_chunks_flown_and_flies_none_of_the_others_when_it_wakes(whole, tmp_path):
-    sleeper = started(LONGER, tmp_path)
-    said(sleeper, "^[1-9]")
-    sleeper.send_signal(signal.SIGSTOP)
-    until(lambda: Path(f"/proc/{sleeper.pid}/stat").read_text().rpartition(")")[2].split()[0] == "T")
-    done = len(files_of(tmp_path))
-    assert fly(LONGER, tmp_path, threads=2) == 12 - done
-    sleeper.send_signal(signal.SIGCONT)
-    flown = int(sleeper.communicate(timeout=PATIENCE)[0].split()[-1])
-    assert done <= flown <= done + IN_WORK
-    assert_same_rows(whole, tmp_path)
-
-
 def test_an_interrupt_leaves_what_is_done_and_no_claim(whole, tmp_path):
     process = started(LONGER, tmp_path)
     said(process, "^[1-9]")
@@ -69,3 +58,37 @@ def test_an_interrupt_leaves_what_is_done_and_no_claim(whole, tmp_path):
     assert list(tmp_path.glob("chunks/.*")) == []
     assert fly(LONGER, tmp_path) == 12 - done
     assert_same_rows(whole, tmp_path)
+
+
+def spawned(count):
+    return ProcessPoolExecutor(count, mp_context=multiprocessing.get_context("spawn"))
+
+
+def test_processes_and_threads_of_any_executor_give_the_same_rows(flown_twelve, tmp_path):
+    with spawned(2) as processes:
+        assert fly(TWELVE, tmp_path / "processes", executor=processes) == 12
+    with ThreadPoolExecutor(3) as threads:
+        assert fly(TWELVE, tmp_path / "threads", executor=threads, threads=2) == 12
+    assert_same_rows(flown_twelve, tmp_path / "processes")
+    assert_same_rows(flown_twelve, tmp_path / "threads")
+
+
+def test_an_executor_whose_process_is_killed_is_refused_and_the_rest_stays(tmp_path):
+    with spawned(1) as processes:
+        pid = processes.submit(os.getpid).result()
+        with pytest.raises(InputError, match=r"^the executor has ended: .*Finished rows are kept"):
+            fly(LONGER, tmp_path, executor=processes, progress=lambda done, _: done and os.kill(pid, signal.SIGKILL))
+    assert 1 <= len(files_of(tmp_path)) < 12
+
+
+def test_an_executor_that_is_shut_down_is_refused(tmp_path):
+    with ThreadPoolExecutor(1) as pool:
+        pass
+    with pytest.raises(InputError, match="the executor has ended: cannot schedule new futures after shutdown"):
+        fly(TWELVE, tmp_path, executor=pool)
+    assert list(tmp_path.glob("chunks/.*")) == []
+
+
+def test_a_chunk_for_other_sources_is_refused_unread():
+    with pytest.raises(InputError, match=rf"process {os.getpid()}: .* {sources_digest()}, this study .* 0123"):
+        fly_packed("0123", b"no pickle at all")

@@ -28,17 +28,10 @@ def stamps(folder):
     return {name: path.stat().st_mtime_ns for name, path in files_of(folder).items()}
 
 
-def test_a_study_that_is_flown_flies_no_chunk_again(twelve):
-    before = stamps(twelve)
-    assert fly(TWELVE, twelve) == 0
-    assert stamps(twelve) == before
-
-
 @pytest.mark.parametrize(
     ("changed", "said"),
     [
         ({"set": {"mission.duration": 0.6}}, r"its set.mission.duration is 0.5, here it is 0.6"),
-        ({"study": TWELVE["study"] | {"draws": 96}}, r"its study.draws is 48, here it is 96"),
         (
             {"study": TWELVE["study"] | {"missions": ["hover"]}},
             r'its study.missions is \["one-push"\], here it is \["hover"\]',
@@ -65,12 +58,8 @@ def test_a_controller_s_file_that_changed_since_is_named(tmp_path):
 
 
 EDITS = {
-    "a setting": lambda said: said["settings"]["set"].update({"mission.duration": 0.4}),
     "a mission": lambda said: said["variants"][0]["tables"].update(plant={"mass_scale": 1.1}),
     "a controller": lambda said: said["variants"][0].update(controller_file=["mine.py", "raise SystemExit('ran')"]),
-    "the rows": lambda said: said.update(rows=44),
-    "the columns": lambda said: said.update(varied=[]),
-    "the sources": lambda said: said.update(sources="0" * 16),
     "the digest": lambda said: said.update(digest=said["digest"][::-1]),
     "a key of its own": lambda said: said.update(more=1),
 }
@@ -92,7 +81,7 @@ def test_a_plan_that_was_edited_is_refused_before_anything_of_it_is_used(twelve,
 def test_a_plan_of_which_a_bit_changed_is_refused(twelve):
     path = twelve / "study.json"
     content, drawn = path.read_bytes(), random.Random(25)
-    for _ in range(200):
+    for _ in range(40):
         bit = drawn.randrange(8 * len(content.rstrip()))
         path.write_bytes(bytes(byte ^ (1 << bit % 8) * (i == bit // 8) for i, byte in enumerate(content)))
         with pytest.raises(InputError, match=r"study\.json|made by another version"):

@@ -70,15 +70,11 @@ def test_components_that_are_not_searched_stay(mission):
         ({"controller.name": None}, "is not a number"),
         ({"allocation.weights": None}, "is not a number"),
         ({"controller.filter_bandwidth": ["tanh", "sign"]}, r"must be \[low, high\]"),
-        ({"controller.filter_bandwidth": [50.0, 5.0]}, "the range is empty"),
-        ({"controller.filter_bandwidth": [5.0, 5.0]}, "the range is empty"),
-        ({"controller.filter_bandwidth": []}, r"must be \[low, high\]"),
         ({"controller.filter_bandwidth": [1.0, 2.0, 3.0]}, r"must be \[low, high\]"),
         ({"controller.filter_bandwidth": [-1.0, 20.0]}, "must be from"),
         ({"controller.max_tilt": None}, "left out, so a range must be given"),
         ({"controller.gains.xi.6": None}, "has no component 6"),
         ({"mission.step": None}, "so it stays"),
-        ({"crash.tilt": None}, "so it stays"),
     ],
 )
 def test_what_cannot_be_searched_is_refused(mission, ranges, words):

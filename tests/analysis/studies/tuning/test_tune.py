@@ -1,18 +1,19 @@
-"""Tuning as a whole: a mission whose best gain is known, evidence on holdout draws, files, and bad input."""
+"""Tuning as a whole, and training of a policy: a known best gain, evidence on holdout draws, files, and bad input."""
 
 import json
 import math
-from contextlib import contextmanager
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 import tandemlift as tl
-from tandemlift.analysis.studies.tuning import tune
 from tandemlift.analysis.studies.tuning.candidates import Trial, cost_of
 from tandemlift.analysis.studies.tuning.goals import Goal
 from tandemlift.analysis.studies.tuning.result import EVIDENCE_FILE
+from tandemlift.apps.cli.main import cli
 from tandemlift.core.errors import InputError
+from tandemlift.parts.interaction.policy import PolicyTable
 
 STIFFNESS = 4.0  # 1/s²
 DROP = {  # a mass that is let go 0.1 m above its reference, held by a spring and a damper
@@ -54,10 +55,18 @@ def test_the_damping_of_least_error_is_the_root_of_the_stiffness(dropped):
 
 
 def test_a_search_repeated_with_its_seed_gives_the_same_bits(dropped):
-    text = json.dumps(dropped.as_table())
-    assert json.dumps(drop().as_table()) == text
-    assert json.dumps(drop(threads=1).as_table()) == text
-    assert json.dumps(drop(seed=1).as_table()) != text
+    assert json.dumps(drop(threads=1).as_table()) == json.dumps(dropped.as_table())
+
+
+def test_a_mission_in_a_file_is_extended_by_its_path_and_lists_of_tables_are_written_whole(tmp_path):
+    own = tmp_path / "own.toml"
+    own.write_text("extends = 'hover'\n[actuators]\nmodel = 'rotors'\n", "utf-8")
+    lag = {"vehicle.quadrotors.1.lag_up": [0.005, 0.05]}
+    draws = {"study": {"name": "twice", "missions": [str(own)], "seeds": 2}}
+    found = tl.tune(own, "position_rmse_m.2", parameters=lag, draws=draws, holdout=2, budget=8, changes=QUICK)
+    path = found.save(tmp_path / "out")
+    assert 'extends = "../own.toml"' in path.read_text("utf-8")
+    assert tl.load_mission(path) == found.mission
 
 
 def test_the_written_mission_is_the_one_that_was_found(dropped, tmp_path):
@@ -73,22 +82,6 @@ def test_the_written_mission_is_the_one_that_was_found(dropped, tmp_path):
     assert len(kept["evidence"]["rows"]) == 2
 
 
-def test_a_mission_in_a_file_is_extended_by_its_path_and_lists_of_tables_are_written_whole(tmp_path):
-    own = tmp_path / "own.toml"
-    own.write_text("extends = 'hover'\n[actuators]\nmodel = 'rotors'\n", "utf-8")
-    parameters = {"vehicle.quadrotors.1.lag_up": [0.005, 0.05]}
-    found = tl.tune(
-        own, "position_rmse_m.2", parameters=parameters, draws=twice_of(own), holdout=2, budget=8, changes=QUICK
-    )
-    path = found.save(tmp_path / "out")
-    assert 'extends = "../own.toml"' in path.read_text("utf-8")
-    assert tl.load_mission(path) == found.mission
-
-
-def twice_of(path):
-    return {"study": {"name": "twice", "missions": [str(path)], "seeds": 2}}
-
-
 def test_holdout_draws_are_none_of_the_search_and_old_and_new_fly_the_same_ones():
     found = quick()
     searched = {draw.changes["mission.seed"] for draw in found.draws}
@@ -97,30 +90,6 @@ def test_holdout_draws_are_none_of_the_search_and_old_and_new_fly_the_same_ones(
     assert not searched & holdout
     again = tl.fly(tl.load_mission("hover", {**QUICK, **found.holdout[3].changes, **found.changes}))
     assert found.evidence.new.values[0][3, 0] == again.metrics()["position_rmse_m"][2]
-
-
-def test_without_candidates_the_present_values_stay_and_are_not_called_better():
-    found = quick(budget=0)
-    assert found.new == found.old
-    assert found.changes == {}
-    assert not found.is_better
-
-
-def test_at_the_minimum_nothing_is_gained():
-    best = {**DROP, "controller.position_damping": math.sqrt(STIFFNESS)}
-    parameters = {"controller.position_damping.2": [0.5, 8.0]}
-    found = tl.tune(
-        "hover",
-        "position_rmse_m.2",
-        changes=best,
-        controller="geometric",
-        parameters=parameters,
-        draws=TWICE,
-        holdout=2,
-        budget=40,
-    )
-    old, new = found.evidence.costs
-    assert 0.9999 < new.ratio / old.ratio <= 1.0
 
 
 def test_a_bad_start_is_left_because_bad_outcomes_count_first():
@@ -143,12 +112,15 @@ def test_a_bad_start_is_left_because_bad_outcomes_count_first():
     assert np.isnan(found.evidence.comparisons[0].difference)  # no draw went well with both
 
 
-def test_several_goals_need_targets_where_every_present_flight_ends_badly():
-    """Findings are bad outcomes here, so no draw has a present value to compare with."""
+def test_findings_are_bad_outcomes_if_strict_and_several_goals_need_targets_where_all_flights_end_badly():
+    """The start is farther from the reference than the mission promises."""
     far = {**QUICK, "promise.settling_time": 0.0, "promise.distance": 0.05}
     goals = {"position_rmse_m.2": 0.01, "attitude_rmse_rad": 0.1}
-    assert quick(goals=goals, changes=far, budget=0, strict=True).evidence.costs[0].bad == 6
-    assert quick(goals="position_rmse_m.2", changes=far, budget=0, strict=True).evidence.costs[0].bad == 6
+    lax, strict = (quick(goals=goals, changes=far, budget=0, strict=strict) for strict in (False, True))
+    assert (lax.new, lax.changes, lax.is_better) == (lax.old, {}, False), "without candidates the present values stay"
+    assert lax.evidence.costs[0].bad == 0
+    assert strict.evidence.costs[0].bad == 6
+    assert set(strict.evidence.old.outcomes) == {"findings"}
     with pytest.raises(InputError, match="every draw ends badly, so several goals need targets"):
         quick(goals=list(goals), changes=far, budget=0, strict=True)
 
@@ -168,15 +140,6 @@ def test_the_worst_draw_counts_beside_the_mean_and_the_mean_beside_the_worst():
         assert cost(2, 6, aim=aim).ratio == pytest.approx(2.0 * uneven[i])
 
 
-def test_findings_are_bad_outcomes_if_strict():
-    """The start is farther from the reference than the mission promises."""
-    far = {**QUICK, "promise.settling_time": 0.0, "promise.distance": 0.05}
-    lax, strict = (quick(changes=far, budget=0, strict=strict) for strict in (False, True))
-    assert lax.evidence.costs[0].bad == 0
-    assert strict.evidence.costs[0].bad == 6
-    assert set(strict.evidence.old.outcomes) == {"findings"}
-
-
 def test_ctrl_c_keeps_the_best_so_far_and_writes_it_as_unfinished(tmp_path):
     def interrupt(tried, budget, lowest):
         if tried >= 16:
@@ -190,22 +153,6 @@ def test_ctrl_c_keeps_the_best_so_far_and_writes_it_as_unfinished(tmp_path):
     path = found.save(tmp_path)
     assert "unfinished" in path.read_text("utf-8")
     assert json.loads((tmp_path / EVIDENCE_FILE).read_text("utf-8"))["finished"] is False
-
-
-def test_a_notebook_shows_a_bar_unless_progress_is_given(monkeypatch):
-    shown, told = [], []
-
-    @contextmanager
-    def bar(what, progress, unit):
-        yield lambda done, most: shown.append((done, most))
-
-    monkeypatch.setattr(tune, "progress_or_own", bar)
-    quick(budget=16)
-    assert shown[-1] == (16, 16)
-    shown.clear()
-    quick(budget=16, progress=lambda *now: told.append(now))
-    assert told
-    assert not shown
 
 
 def test_cases_with_targets_are_measured_against_them(tmp_path):
@@ -225,8 +172,6 @@ def test_cases_with_targets_are_measured_against_them(tmp_path):
 @pytest.mark.parametrize(
     ("how", "words"),
     [
-        ({"goals": "position_rms_m"}, r"unknown metric 'position_rms_m'.*Did you mean 'position_rmse_m'"),
-        ({"goals": "outcome"}, "unknown metric"),
         ({"goals": "position_rmse_m.3"}, "has 3 components"),
         ({"goals": "position_rmse_after_10s_m"}, "no flight has a number for it"),
         ({"goals": {"position_rmse_m": -1.0}}, "target must be a number > 0"),
@@ -235,11 +180,9 @@ def test_cases_with_targets_are_measured_against_them(tmp_path):
         ({"goals": ["position_rmse_m", "position_rmse_m"]}, "is given twice"),
         ({"budget": 3}, "must be at least 8, which are tried at a time, or 0"),
         ({"draws": 0}, "must be from 1"),
-        ({"holdout": 0}, "must be from 1"),
         ({"aim": "best"}, "unknown aim 'best'"),
         ({"parameters": ["plant.mass_scale"]}, "the draws change plant.mass_scale"),
         ({"parameters": ["controller.switching"]}, "is not a number"),
-        ({"draws": "no-such.toml"}, "does not exist"),
         ({"drawz": 3}, "unknown argument of tune 'drawz'.*Did you mean 'draws'"),
     ],
     ids=str,
@@ -265,3 +208,66 @@ def test_a_study_that_sets_the_seed_has_no_holdout_draws(tmp_path):
     )
     with pytest.raises(InputError, match=r"sets mission\.seed"):
         quick(draws=file)
+
+
+LED = {  # straight ahead, without sensors; one delay, so that all flights have one compiled loop
+    "pushes": [],
+    "sensors.model": "none",
+    "pilot.state": "truth",
+    "pilot.push": "truth",
+    "phases.lift_start": 0.5,
+    "phases.lift_duration": 1.5,
+    "person.model": "steer",
+    "person.delay": 0.2,
+    "person.start_time": 2.0,
+    "person.path": [{"point": [6.0, 0.0]}],
+    "mission.duration": 8.0,
+    "mission.step": 0.005,
+}
+SHORT = {"hidden": 1, "persons": 2, "holdout": 12, "budget": 32, "changes": LED}
+
+
+@pytest.fixture(scope="module")
+def trained():
+    return tl.train("iris", **SHORT)
+
+
+def test_a_short_training_saves_other_persons_work_and_force(trained):
+    assert trained.is_better
+    work, force = trained.evidence.comparisons
+    assert (work.label, force.label) == ("human_work_j", "human_force_mean_n")
+    assert work.interval[1] < 0.0
+    assert force.interval[1] < 0.0
+    assert len(trained.holdout) >= 12
+    assert not [draw for draw in trained.holdout if draw in trained.draws]
+    assert trained.old == tuple(PolicyTable.zeros(1))
+
+
+def test_what_was_trained_flies_as_a_file_and_trains_on(trained, tmp_path):
+    mission = tl.load_mission(trained.save(tmp_path))
+    assert mission.compliance.policy.model == "network"
+    assert mission.compliance.policy.weights == trained.new
+    again = tl.train(tmp_path / "tuned.toml", **{**SHORT, "budget": 0, "holdout": 2, "changes": {"person.delay": 0.2}})
+    assert again.old == trained.new
+
+
+@pytest.mark.parametrize(
+    ("mission", "how", "said"),
+    [
+        ("iris", {"changes": {}}, "mission 'iris' has no person"),
+        ("hover", {"changes": {}}, 'must be "none" where pilot.guidance is "scheduled"'),
+        ("iris", {"hidden": 0}, "--hidden 0: must be from 1 to 64"),
+        ("iris", {"aim": "worst"}, "argument of train"),
+    ],
+    ids=str,
+)
+def test_bad_input_is_refused(mission, how, said):
+    with pytest.raises(InputError) as refused:
+        tl.train(mission, **{**SHORT, **how})
+    assert said in str(refused.value)
+
+
+def test_the_command_refuses_bad_input_and_writes_nothing(tmp_path):
+    result = CliRunner().invoke(cli, ["train", "zigzag", "--hidden", "0", "--out", str(tmp_path / "out")])
+    assert "--hidden 0" in str(result.exception)
+    assert not (tmp_path / "out").exists()

@@ -1,4 +1,4 @@
-"""`tandemlift compare`: one mission, several controllers; a table, and numbers."""
+"""`tandemlift compare`: one mission, several controllers or engines; a table, numbers, and how far apart."""
 
 import json
 import re
@@ -7,11 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from as_toml import to_toml
+from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.analysis.studies.comparison import Entry, MissionComparison, with_controllers
-from tandemlift.analysis.studies.comparison_scores import controller_table
+from tandemlift.analysis.studies.comparison import in_engines, with_controllers
+from tandemlift.analysis.studies.comparison_scores import controller_table, differences, largest_differences
+from tandemlift.core.errors import InputError
 from tandemlift.flight.record import interruption
+from tandemlift.missions import tables_of
 from tandemlift.parts.controllers import CONTROLLERS
 
 SHORT = ("--set", "mission.duration=0.6")
@@ -50,13 +53,10 @@ def test_a_controller_that_diverges_is_a_row_that_says_when_and_why(run, tmp_pat
 @pytest.mark.parametrize(
     ("arguments", "pieces"),
     [
-        (("hovr",), ["unknown mission 'hovr'", "Did you mean 'hover'?"]),
         (("hover", "--controllers", "pdi"), ["unknown controller 'pdi'", "Did you mean 'pid'?"]),
         (("hover", "--controllers", " , "), ["--controllers: must be a comma-separated list of names"]),
         (("hover", "--controllers", "absent.py"), ["absent.py does not exist"]),
         (("hover", "--engine", "compild"), ["unknown engine 'compild'"]),
-        (("hover", "--set", "mission.step=0.5"), ["mission.step = 0.5"]),
-        (("hover", "--set", "controller.nothing=1"), ["controller.nothing = 1: unknown key"]),
         (
             ("hover", "--controllers", "pid,nftsmc", "--set", "controller.velocity_i=1"),
             ["controller.velocity_i = 1: unknown key", "gives keys to nftsmc only, the controller of mission hover"],
@@ -105,45 +105,6 @@ def test_a_controller_has_the_settings_of_the_mission_that_is_extended(tmp_path)
         with_controllers(str(alone), {}, [CONTROLLERS["nftsmc"]])
 
 
-def test_another_engine_flies_them_one_by_one(tmp_path):
-    pytest.importorskip("mujoco")
-    seen = []
-    changes = {"mission.duration": 0.1}
-    entered = with_controllers("hover", changes, [CONTROLLERS["pid"]], "mujoco")
-    other = Entry("other", refusal="lacks everything")
-    found = MissionComparison("controllers", [*entered.entries, other]).fly(lambda *done: seen.append(done))
-    assert seen == [(1, 1)]
-    assert found.entries[0].flight.version["engine"] == "mujoco"
-    assert found.entries[1] == other
-
-
-FAILING = '''
-"""Fails in flight."""
-from typing import NamedTuple
-from tandemlift.parts.controllers import NoMemory, control, register
-from tandemlift.parts.controllers import ControllerTable
-class Gains(NamedTuple):
-    """None."""
-@control.register(Gains, compiled=False)
-def fail(k, memory, measured, reference):
-    """Fails."""
-    return 1 / 0
-class Settings(ControllerTable):
-    """None."""
-@register("failing", Settings)
-def start(s, vehicle, step):
-    """Fails in flight, whatever it is told."""
-    return Gains(), NoMemory()
-'''
-
-
-def test_a_controller_of_one_s_own_that_fails_is_told_with_its_line(run, tmp_path):
-    (tmp_path / "mine.py").write_text(FAILING)
-    code, _, err = run("compare", "hover", "--controllers", "mine.py", *SHORT)
-    assert code == 2
-    assert "controller 'failing' fails: mine.py, line 11: ZeroDivisionError" in err
-
-
 def test_long_flights_are_scored_after_ten_seconds_and_one_that_ended_before_does_not_change_that():
     missions = [tl.load_mission("hover", {"mission.duration": duration}) for duration in (11.0, 2.0)]
     long, short = (tl.fly(mission) for mission in missions)
@@ -155,3 +116,81 @@ def test_long_flights_are_scored_after_ten_seconds_and_one_that_ended_before_doe
     table = controller_table({"a": long, "b": short})
     assert table.what == "position errors over the whole flight"
     assert table.rows["b"][3] == f"{1e3 * max(short.metrics()['position_max_error_m']):.3f}"
+
+
+pytest.importorskip("mujoco")
+BRIEF = {"mission.duration": 2.0}
+
+
+def made(seed, count=50, **channels):
+    """A flight of chance, with some channels as given."""
+    rng = np.random.default_rng(seed)
+    attitude = Rotation.random(count, rng=rng).as_quat(scalar_first=True)
+    own = {"position": rng.normal(size=(count, 3)), "attitude": attitude, "joint_force": rng.normal(size=(count, 2, 3))}
+    return tl.Flight(0.01 * np.arange(count), own | channels, tables_of(tl.load_mission("paper")), {})
+
+
+def test_attitudes_are_apart_by_the_angle_of_the_rotation_between_them():
+    a, b = made(1), made(2)
+    between = Rotation.from_quat(a["attitude"], scalar_first=True).inv() * Rotation.from_quat(
+        b["attitude"], scalar_first=True
+    )
+    assert differences(a, b)["attitude"] == pytest.approx(between.magnitude())
+    other = made(1, attitude=-a["attitude"])  # the same attitudes
+    assert largest_differences(a, other)["attitude"] == 0.0
+
+
+def test_a_known_difference_is_found_and_joints_are_looked_at_once_settled():
+    a = made(3)
+    moved, force = a["position"].copy(), a["joint_force"].copy()
+    moved[20] += [0.3, 0.4, 0.0]
+    force[5, 1, 2] += 7.0  # at 0.05 s
+    force[30, 0, 1] -= 0.25
+    found = largest_differences(made(3, position=moved, joint_force=force), a)
+    assert found["position"] == pytest.approx(0.5)
+    assert found["joint_force"] == pytest.approx(0.25)
+    assert "push_estimate" not in found
+
+
+def test_a_flight_that_ended_early_is_compared_as_far_as_it_came():
+    a, b = made(4), made(4)
+    short = tl.Flight(b.time[:20], {n: v[:20] for n, v in b.channels.items()}, b.mission, {})
+    assert largest_differences(short, a) == {"position": 0.0, "attitude": 0.0, "joint_force": 0.0}
+
+
+def test_a_mission_is_flown_in_each_engine_and_the_numbers_say_so(run, tmp_path):
+    code, printed, _ = run(
+        "compare", "paper", "--engines", "compiled,mujoco", "--set", "mission.duration=2.0", "--out", "o"
+    )
+    assert code == 0
+    assert sorted(p.name for p in (tmp_path / "o").iterdir()) == [*("engines.csv", "engines.json", "engines.tex")]
+    found = json.loads((tmp_path / "o/engines.json").read_text("utf-8"))
+    assert [row["engine"] for row in found["engines"]] == ["compiled", "mujoco"]
+    a, b = (tl.fly(tl.load_mission("paper", BRIEF), engine) for engine in ("compiled", "mujoco"))
+    most = np.linalg.norm(a["position"] - b["position"], axis=1).max()
+    assert 0.0 < most < 1e-6  # m
+    assert found["engines"][1]["difference"]["position"] == pytest.approx(most)
+    assert set(found["engines"][0]["difference"].values()) == {0.0}
+    assert f"{most:.1e}" in printed
+
+
+@pytest.mark.parametrize(
+    ("arguments", "pieces"),
+    [
+        (["--engines", "compiled,mujco"], ["unknown engine 'mujco'", "'mujoco'"]),
+        (["--engines", "mujoco"], ["must be two or more"]),
+        (["--engines", ","], ["--engines: must be a comma-separated list of names"]),
+        (["--engines", "compiled,mujoco", "--controllers", "pid"], ["give only one of them"]),
+    ],
+    ids=["an unknown one", "one alone", "none", "controllers too"],
+)
+def test_bad_engines_are_refused_and_nothing_is_written(arguments, pieces, run, tmp_path):
+    code, _, said = run("compare", "paper", *arguments)
+    assert code == 2
+    assert [piece for piece in pieces if piece not in said] == []
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_engine_may_not_be_named_twice():
+    with pytest.raises(InputError, match="without repetition"):
+        in_engines(tl.load_mission("paper", BRIEF), ["compiled", "compiled"])
