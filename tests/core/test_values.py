@@ -25,7 +25,6 @@ from tandemlift.core.algebra import (
     maximum,
     minimum,
     power,
-    sin,
     sqrt,
     tanh,
     where,
@@ -57,17 +56,17 @@ def test_vectors_divide_by_numbers_and_by_vectors():
 
 
 @pytest.mark.parametrize("compare", [operator.lt, operator.le, operator.gt, operator.ge])
-@pytest.mark.parametrize("value", [A, Q, mat3(np.eye(3)), each(8)(*range(8))])
-def test_values_have_no_order(compare, value):
-    with pytest.raises(TypeError, match="no order"):
-        compare(value, value)
+def test_values_have_no_order(compare):
+    for value in (A, Q, mat3(np.eye(3)), each(8)(*range(8))):
+        with pytest.raises(TypeError, match="no order"):
+            compare(value, value)
 
 
 @pytest.mark.parametrize("combine", [operator.add, operator.sub, operator.mul, operator.truediv])
-@pytest.mark.parametrize("other", [Q, (1.0, 2.0, 3.0), each(4)(1.0, 2.0, 3.0, 4.0)])
-def test_values_of_different_kinds_do_not_mix(combine, other):
-    with pytest.raises(TypeError, match="Vec3"):
-        combine(A, other)
+def test_values_of_different_kinds_do_not_mix(combine):
+    for other in (Q, (1.0, 2.0, 3.0), each(4)(1.0, 2.0, 3.0, 4.0)):
+        with pytest.raises(TypeError, match="Vec3"):
+            combine(A, other)
 
 
 def test_quaternions_are_multiplied_by_name_only():
@@ -76,14 +75,11 @@ def test_quaternions_are_multiplied_by_name_only():
     assert Q * 2.0 == 2.0 * Q == Quat(2.0, 0.0, 0.0, 0.0)
 
 
-@pytest.mark.parametrize("k", [np.float64(2.0), np.float32(2.0), np.int64(2), 2.0, 2])
-def test_a_scalar_of_any_kind_may_stand_on_the_left(k):
-    assert k * A == Vec3(2.0, -4.0, 6.0)
-    assert isinstance(k * A, Vec3)
-    assert k * each(4)(1.0, 2.0, 3.0, 4.0) == each(4)(2.0, 4.0, 6.0, 8.0)
-
-
-def test_an_array_on_the_left_broadcasts_into_the_components():
+def test_a_scalar_of_any_kind_or_an_array_may_stand_on_the_left():
+    for k in (np.float64(2.0), np.float32(2.0), np.int64(2), 2.0, 2):
+        assert k * A == Vec3(2.0, -4.0, 6.0)
+        assert isinstance(k * A, Vec3)
+        assert k * each(4)(1.0, 2.0, 3.0, 4.0) == each(4)(2.0, 4.0, 6.0, 8.0)
     batch = np.array([1.0, 2.0]) * A
     assert isinstance(batch, Vec3)
     assert np.array_equal(batch.z, [3.0, 6.0])
@@ -94,19 +90,14 @@ def test_numpy_functions_refuse_values():
         np.cos(A)
 
 
-def test_states_add_and_scale_whole():
-    s = random_state(np.random.default_rng(0))
+def test_states_and_matrices_add_and_scale_whole():
+    s, one = random_state(np.random.default_rng(0)), mat3(np.eye(3))
     twice = s + s
     assert isinstance(twice, State)
     assert twice == s * 2.0
     assert isinstance(twice.attitude, Quat)
-
-
-def test_matrices_add_and_scale_by_rows():
-    one = mat3(np.eye(3))
-    double, nothing = one + one, one - one
-    assert double == one * 2.0
-    assert nothing == Mat3(ZERO, ZERO, ZERO)
+    assert one + one == one * 2.0
+    assert one - one == Mat3(ZERO, ZERO, ZERO)
 
 
 def test_rotor_sets_are_one_class_for_each_number_of_rotors_and_survive_pickling():
@@ -116,7 +107,7 @@ def test_rotor_sets_are_one_class_for_each_number_of_rotors_and_survive_pickling
     assert eight + eight == eight * 2.0
     assert dot(eight, eight) == 140.0
     with pytest.raises(AttributeError, match="Each"):
-        __import__("tandemlift.core.vector", fromlist=["x"]).EachOfDoom  # noqa: B018
+        vector.EachOfDoom  # noqa: B018
 
 
 def test_values_are_made_from_any_numbers_as_floats():
@@ -131,16 +122,7 @@ def test_elementwise_laws_take_vectors_numbers_and_both():
     assert maximum(A, B) == Vec3(1.0, 4.0, 3.0)
     assert minimum(A, 0.0) == Vec3(0.0, -2.0, 0.0)
     assert clip(A, -1.0, Vec3(0.5, 0.5, 0.5)) == Vec3(0.5, -1.0, 0.5)
-    assert sin(0.0) == 0.0
-
-
-def test_a_law_of_scalars_of_ones_own_maps_over_vectors():
-    @elementwise
-    def double(x):
-        return x * 2.0
-
-    assert double(A) == A * 2.0
-    assert double(3.0) == 6.0
+    assert elementwise(lambda x: x * 2.0)(A) == A * 2.0
 
 
 def test_an_unknown_type_is_refused_with_the_types_that_are_known():
