@@ -15,23 +15,9 @@ from law_values import array, numbers, random_state, vectors
 from patience import PATIENCE
 
 from tandemlift.core import vector
-from tandemlift.core.algebra import (
-    absolute,
-    atan2,
-    atan_ratio,
-    clip,
-    exp,
-    log,
-    maximum,
-    minimum,
-    power,
-    sqrt,
-    tanh,
-    where,
-)
+from tandemlift.core.algebra import absolute, clip, maximum, minimum
 from tandemlift.core.law import choice, elementwise
 from tandemlift.core.vector import ZERO, Mat3, Quat, Vec3, dot, each, mat3, vec3
-from tandemlift.parts.controllers.sliding_surface import Cubic, switching
 from tandemlift.parts.mechanics.rigid_body import State
 
 A, B = Vec3(1.0, -2.0, 3.0), Vec3(0.5, 4.0, -1.0)
@@ -47,12 +33,8 @@ def test_vectors_add_scale_and_multiply_component_by_component(a, b, k):
     assert array(a * k) == pytest.approx(x * k)
     assert k * a == a * k
     assert array(-a) == pytest.approx(-x)
-
-
-def test_vectors_divide_by_numbers_and_by_vectors():
-    half, ratio = A / 2.0, A / B
-    assert half == Vec3(0.5, -1.0, 1.5)
-    assert ratio == Vec3(2.0, -0.5, -3.0)
+    assert array(a / 7.0) == pytest.approx(x / 7.0)
+    assert array(a / A) == pytest.approx(x / array(A))
 
 
 @pytest.mark.parametrize("compare", [operator.lt, operator.le, operator.gt, operator.ge])
@@ -67,6 +49,8 @@ def test_values_of_different_kinds_do_not_mix(combine):
     for other in (Q, (1.0, 2.0, 3.0), each(4)(1.0, 2.0, 3.0, 4.0)):
         with pytest.raises(TypeError, match="Vec3"):
             combine(A, other)
+    with pytest.raises(TypeError, match="Vec3"):
+        np.cos(A)
 
 
 def test_quaternions_are_multiplied_by_name_only():
@@ -83,11 +67,6 @@ def test_a_scalar_of_any_kind_or_an_array_may_stand_on_the_left():
     batch = np.array([1.0, 2.0]) * A
     assert isinstance(batch, Vec3)
     assert np.array_equal(batch.z, [3.0, 6.0])
-
-
-def test_numpy_functions_refuse_values():
-    with pytest.raises(TypeError, match="Vec3"):
-        np.cos(A)
 
 
 def test_states_and_matrices_add_and_scale_whole():
@@ -125,11 +104,6 @@ def test_elementwise_laws_take_vectors_numbers_and_both():
     assert elementwise(lambda x: x * 2.0)(A) == A * 2.0
 
 
-def test_an_unknown_type_is_refused_with_the_types_that_are_known():
-    with pytest.raises(TypeError, match=r"switching\(\) has no law for Cubic; it knows Saturation, Sign, Tanh"):
-        switching(Cubic(), A)
-
-
 def test_a_choice_takes_a_type_of_ones_own():
     class Mine(NamedTuple):
         k: Any
@@ -146,19 +120,6 @@ def test_a_choice_takes_a_type_of_ones_own():
     assert not pick.interpreted
     pick.register(Mine, compiled=False)(lambda kind, x: x)
     assert pick.interpreted == {Mine}
-
-
-def test_elementary_operations_on_numbers_hold_at_their_edges():
-    assert np.isnan(sqrt(-1.0))
-    assert exp(1e4) == exp(709.0) < np.inf
-    assert tanh(1e3) == 1.0
-    assert power(0.0, 0.0) == 1.0
-    assert power(0.0, 2.0) == 0.0
-    assert atan_ratio(1.0, 0.0) == pytest.approx(np.pi / 2)
-    assert atan_ratio(1.0, -1.0) == pytest.approx(-np.pi / 4)
-    assert atan2(-1.0, -1.0) == pytest.approx(-3.0 * np.pi / 4)
-    assert log(np.e) == 1.0
-    assert where(True, 1.0, 2.0) == 1.0
 
 
 def test_two_threads_that_need_a_set_for_the_first_time_get_the_same_class(monkeypatch):
