@@ -228,10 +228,8 @@ def test_a_vehicle_with_other_quadrotors_is_refused(vehicle, wire_at):
 
 @pytest.mark.parametrize(("what", "changes"), [("step", {"dt": 2e-3}), ("mass", {"dt": DT, "mass": 3.0})])
 def test_a_world_of_another_step_or_mass_is_refused(what, changes, mission, vehicle, joined):
-    with (
-        Plugin(RigidBody(vehicle), **changes) as plugin,
-        pytest.raises(tl.InputError, match=rf"the world in Gazebo has a {what} of .* export the mission again"),
-    ):
+    said = rf"the world in Gazebo has a {what} of .* export the mission again"
+    with Plugin(RigidBody(vehicle), **changes) as plugin, pytest.raises(tl.InputError, match=said):
         joined(mission, plugin)
 
 

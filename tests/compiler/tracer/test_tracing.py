@@ -16,7 +16,7 @@ from tandemlift.compiler.machine_code.functions import compiled, written
 from tandemlift.compiler.machine_code.machine import BEST, QUICK
 from tandemlift.compiler.tracer import Graph, elementary, traced
 from tandemlift.compiler.tracer.fused import fused, once_rounded
-from tandemlift.core.algebra import where
+from tandemlift.core.algebra import maximum, minimum, where
 from tandemlift.core.law import Absent, Elementwise, choice, elementwise, law
 from tandemlift.core.vector import Vec3, dot
 
@@ -286,6 +286,15 @@ def test_an_elementary_function_of_a_number_is_that_of_a_symbol_to_the_last_bit(
     for lanes, level in ((1, QUICK), (8, BEST)):
         found = compiled(function, *[0.0] * rows.shape[1], lanes=lanes, level=level)(rows)[:, 0]
         assert np.array_equal(bits(found), bits(wanted))
+
+
+def test_of_zeros_and_of_what_is_no_number_the_choice_is_that_of_plain_python():
+    rows = [(a, b) for a in (0.0, -0.0, 1.0, math.inf, math.nan) for b in (0.0, -0.0, -1.0, -math.inf, math.nan)]
+    for function, plain in ((minimum, lambda a, b: a if a < b else b), (maximum, lambda a, b: a if a > b else b)):
+        wanted = bits(np.array([plain(a, b) for a, b in rows]))
+        assert np.array_equal(bits(np.array([function(a, b) for a, b in rows])), wanted)
+        for lanes in (1, 8):
+            assert np.array_equal(bits(compiled(function, 0.0, 0.0, lanes=lanes)(np.array(rows))[:, 0]), wanted)
 
 
 def cut(x):
