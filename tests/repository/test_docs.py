@@ -58,7 +58,7 @@ def test_the_commands_of_the_readme_run(tmp_path, monkeypatch):
     assert commands
     # which go on until they are stopped, take minutes, or are run by the tutorials and by tests of their own
     elsewhere = {"live", "ros", "mavlink", "tune", "study", "feel", "paper", "linearize", "render"}
-    elsewhere |= {"certify", "grade", "benchmark"}
+    elsewhere |= {"certify", "grade", "benchmark", "check"}
     quicker = {"run": ["--no-figures", "--set", "mission.duration=5"], "shadow": ["--no-figures"]}
     for _, *arguments in commands:
         if arguments[0] not in elsewhere:
