@@ -109,7 +109,7 @@ def test_an_excited_vehicle_moves_and_feels_as_in_the_compiled_engine(changes):
     shoved = {"disturbance.force": [0.3, -0.2, 0.1], "disturbance.moment": [0.02, 0.04, -0.01]}
     mission, vehicle = mission_of(3, start | shoved | changes)
     apart, fastest = np.zeros(2), 0.0
-    for state, felt, body in excited(mission, vehicle, 2.0):
+    for state, felt, body in excited(mission, vehicle, 1.5):
         np.testing.assert_allclose(body.readings, numbers(felt), atol=1e-9)
         difference = np.abs(body.state - numbers(state))
         apart = np.maximum(apart, [difference[:3].max(), 2.0 * difference[6:10].max()])
