@@ -32,30 +32,39 @@ def test_a_flight_that_strikes_a_wall_hard_has_the_bits_of_the_native_one_in_c(t
     wall = upright((-1.0, 0.3), (1.0, 0.3), -0.2)
     mission = unfused(thrown({"initial.velocity": [0.3, 0.0, -8.0], "walls": [wall, upright((1, -3), (1, 3))]}, 0.1))
     assert np.abs(tl.fly(mission)["contact_force"]).max() > 1e4  # an impulse, beyond what springs give
-    in_c = CFlight(mission, tmp_path, "gcc", "-O1", "-Wno-error=parentheses")
+    in_c = CFlight(mission, tmp_path, "gcc", "-O0", "-Wno-error=parentheses")
     wrong, _ = differences(in_c, mission, range(3))
     assert not wrong
 
 
-def prepared_in_c(mission, values, folder):
-    """(What `flight_prepare` returns, the numbers of the flight)."""
-    files = written(code_texts(mission), folder)
-    name = next(f.name for f in files if f.name.endswith("_flight.h")).removesuffix("_flight.h")
-    library = folder / "prepare.so"
-    sources = [folder / f"{name}_flight.c", folder / f"{name}_flight_prepare.c"]
-    subprocess.run(["gcc", *STRICT, "-O0", "-shared", "-fPIC", *sources, "-o", library, "-lm"], check=True)
-    given, prepared = np.array(values), np.zeros(100_000)
-    places = ctypes.c_void_p(given.ctypes.data), ctypes.c_void_p(prepared.ctypes.data)
-    failed = getattr(ctypes.CDLL(str(library)), f"{name}_flight_prepare")(*places)
-    return failed, prepared[: leaves(FlightPlan(mission).model)]
+class Preparation:
+    """A mission's `flight_prepare` in C."""
+
+    def __init__(self, mission, folder):
+        files = written(code_texts(mission), folder)
+        name = next(f.name for f in files if f.name.endswith("_flight.h")).removesuffix("_flight.h")
+        library, sources = folder / "prepare.so", [folder / f"{name}_flight.c", folder / f"{name}_flight_prepare.c"]
+        subprocess.run(["gcc", *STRICT, "-O0", "-shared", "-fPIC", *sources, "-o", library, "-lm"], check=True)
+        self._prepare = getattr(ctypes.CDLL(str(library)), f"{name}_flight_prepare")
+        self._size = leaves(FlightPlan(mission).model)
+
+    def __call__(self, values):
+        """(What it returns, the numbers of the flight)."""
+        given, prepared = np.array(values), np.zeros(100_000)
+        failed = self._prepare(ctypes.c_void_p(given.ctypes.data), ctypes.c_void_p(prepared.ctypes.data))
+        return failed, prepared[: self._size]
 
 
-def test_numbers_of_another_mission_are_prepared_in_c_as_by_assembly(tmp_path):
+def test_numbers_of_another_mission_are_prepared_in_c_as_by_assembly_where_it_would_not_branch_otherwise(tmp_path):
     mission, other = mission_of("one-push"), mission_of("one-push", vehicle__payload__mass=211.5)
-    failed, found = prepared_in_c(mission, trace_assembly(other).values, tmp_path)
+    prepare = Preparation(mission, tmp_path)
+    failed, found = prepare(trace_assembly(other).values)
     assert failed == 0
     assert same(found, FlightPlan(other).start().numbers)
     assert not same(found, FlightPlan(mission).start().numbers)
+    traced = trace_assembly(mission)
+    failed, _ = prepare(np.full(len(traced.values), np.nan))
+    assert 1 <= failed <= len(traced.guards)
 
 
 TABLES = """#include "{p}_flight_prepare.h"
@@ -87,19 +96,12 @@ def test_walls_and_legs_of_a_path_keep_their_constant_numbers_when_numbers_are_p
     assert ctypes.CDLL(str(tmp_path / "tables.so")).tables_differ() == 0
 
 
-def test_numbers_for_which_assembly_would_branch_otherwise_are_reported(tmp_path):
-    mission = mission_of("one-push")
-    traced = trace_assembly(mission)
-    failed, _ = prepared_in_c(mission, np.full(len(traced.values), np.nan), tmp_path)
-    assert 1 <= failed <= len(traced.guards)
-
-
 @pytest.mark.targets
 @pytest.mark.parametrize("name", sorted(built_in()))
 def test_every_mission_is_prepared_in_c_as_by_assembly(name, tmp_path):
     mission = mission_of(name)
     other = changed(mission, "vehicle.payload.mass", mission.vehicle.payload.mass * 1.01)
-    failed, found = prepared_in_c(mission, trace_assembly(other).values, tmp_path)
+    failed, found = Preparation(mission, tmp_path)(trace_assembly(other).values)
     assert failed == 0
     assert same(found, FlightPlan(other).start().numbers)
 

@@ -1,4 +1,7 @@
-"""C compilers have nothing to say about the C of a mission: all its files, with all warnings as errors."""
+"""C compilers have nothing to say about the C of a mission: all its files, with all warnings as errors.
+
+What other tests compile, such as `zigzag` in test_c_flights.py, they compile with the same options.
+"""
 
 import itertools
 import subprocess
@@ -8,7 +11,6 @@ from c_flights import STRICT
 from random_missions.generate import random_family
 
 import tandemlift as tl
-from tandemlift.codegen.c.text import FunctionHead, Statement, function, token
 from tandemlift.codegen.c_package import code_texts, written
 from tandemlift.missions import built_in
 from tools import need
@@ -32,32 +34,10 @@ def in_c(mission, folder, single=False):
     return folder
 
 
-def test_gcc_does_not_warn_of_a_mission(tmp_path):
-    need("gcc")
-    assert not complaints(in_c(tl.load_mission("zigzag"), tmp_path), "gcc", "-O1")
-
-
 def test_gcc_does_not_warn_of_single_precision_nor_of_self_tests(tmp_path):
     need("gcc")
     tl.compile_mission(tl.load_mission("paper"), "c", tmp_path, single=True)
     assert not complaints(tmp_path, "gcc", "-O1")
-
-
-def part_heads(text):
-    """The parameters of each part of a function."""
-    return [line.split("(")[1].split(")")[0] for line in text.split("\n") if "_part" in line and "static" in line]
-
-
-def test_a_part_of_a_function_takes_what_it_uses():
-    lines = [Statement("raw", (), f"prepared->t = {i};") for i in range(300)]
-    head = FunctionHead("", "void", "prepare", ["double t", "Prepared *prepared"])
-    alone = function(head, lines, "")
-    assert part_heads(alone) == ["Prepared *prepared"] * 2
-    assert "shared" not in alone  # a struct without members is no C
-    value = Statement("value", (("double", "v1"),), "1.0")
-    used = Statement("raw", (), f"prepared->t = {token('v1')};")
-    first, second = part_heads(function(head, [value, *lines, used], ""))
-    assert first == second == "Prepared *prepared, prepare_values *shared"
 
 
 @pytest.mark.targets

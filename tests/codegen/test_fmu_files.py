@@ -8,14 +8,12 @@ from xml.etree import ElementTree
 
 import pytest
 from click.testing import CliRunner
-from listings import LAW
 
 import tandemlift as tl
 from tandemlift.apps.cli.export import compile as compile_command
 from tandemlift.codegen import fmu_binaries
 from tandemlift.codegen.fmu_binaries import universal
 from tandemlift.codegen.fmu_description import base_unit
-from tandemlift.parts.controllers import load_controller
 
 NAMES = ["hover_pilot.fmu", "hover_vehicle.fmu", "hover_flight.fmu"]
 
@@ -41,16 +39,11 @@ def test_each_has_a_description_and_sources_alike_each_time(sources):
                 build = ElementTree.fromstring(archive.read("sources/buildDescription.xml"))
                 described = {f"sources/{file.get('name')}" for file in build.iter("SourceFile")}
                 assert "-ffp-contract=off" in build.find(".//SourceFileSet").get("compilerOptions")
+            header = archive.read(f"sources/{path.stem.partition('_')[0]}_fmu.h").decode()
+        assert f"tandemlift {tl.__version__}" in header
+        assert re.search(r"with the hash [0-9a-f]{16}\.", header)
         assert described == {name for name in names if name.endswith(".c")}
         assert not any(name.startswith("binaries/") for name in names)
-
-
-def test_the_c_of_an_fmu_has_the_version_and_the_hash_of_its_mission(sources):
-    _, (files, _) = sources
-    with zipfile.ZipFile(files[0]) as archive:
-        header = archive.read("sources/hover_fmu.h").decode()
-    assert f"tandemlift {tl.__version__}" in header
-    assert re.search(r"with the hash [0-9a-f]{16}\.", header)
 
 
 @pytest.mark.parametrize(
@@ -84,7 +77,7 @@ def test_a_universal_file_has_each_library_at_its_place():
 
 def refusal(tmp_path, **how):
     with pytest.raises(tl.InputError) as caught:
-        tl.compile_mission(how.pop("mission", "hover"), how.pop("target", "fmu"), tmp_path / "out", **how)
+        tl.compile_mission("hover", how.pop("target", "fmu"), tmp_path / "out", **how)
     assert not (tmp_path / "out").exists()
     return str(caught.value)
 
@@ -111,16 +104,6 @@ def test_without_a_compiler_it_says_what_to_install(tmp_path, monkeypatch):
 def test_a_compiler_that_fails_is_quoted(tmp_path, monkeypatch):
     monkeypatch.setattr(fmu_binaries, "local_compiler", lambda: "false")
     assert re.match(r"platforms: false failed for \S+: ", refusal(tmp_path))
-
-
-def test_a_controller_in_plain_python_and_changes_in_flight_are_refused(tmp_path):
-    path = tmp_path / "mine.py"
-    path.write_text(LAW.replace("@control.register(Gains)", "@control.register(Gains, compiled=False)"))
-    plain = tl.load_mission("hover", controller=load_controller(path))
-    assert "is plain Python, of which no other machine has code" in refusal(tmp_path, mission=plain, platforms=["none"])
-    change = {"key": "admittance.damping", "value": [5.0, 5.0, 5.0], "time": 3.0}
-    changing = tl.load_mission("hover", {"changes": [change]})
-    assert refusal(tmp_path, mission=changing, platforms=["none"]).startswith("changes: 1 given")
 
 
 def test_the_command_writes_three(tmp_path):

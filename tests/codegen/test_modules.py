@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from listings import LAW
 
 import tandemlift as tl
 from tandemlift.codegen.mission_module import TARGETS, compile_mission, module_of
@@ -19,6 +20,7 @@ from tandemlift.codegen.module_text import write_flight_loop, write_ramp
 from tandemlift.compiler.machine_code import machine
 from tandemlift.compiler.machine_code.wasm_linker import LinkError, Reader, linked, signed, unsigned
 from tandemlift.compiler.tracer import Module
+from tandemlift.parts.controllers import load_controller
 from tandemlift.simulation.parameter_changes import ParameterRamp, ScheduledChange
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation.memory import WORDS
@@ -113,19 +115,25 @@ def test_unknown_targets_are_refused_with_those_that_there_are(tmp_path: Path, m
     assert not (tmp_path / "x").exists()
 
 
-def test_missions_that_no_module_can_fly_are_refused(tmp_path: Path) -> None:
-    change = [{"time": 1.0, "key": "admittance.mass", "value": 2.0}]
+@pytest.mark.parametrize("target", ["wasm32", "c", "fmu"])
+def test_missions_that_no_other_machine_can_fly_are_refused(target: str, tmp_path: Path) -> None:
+    change = {"time": 1.0, "key": "admittance.mass", "value": 2.0}
     with pytest.raises(tl.InputError, match="changes: 1 given, but other machines fly a mission as it begins"):
-        compile_mission(tl.load_mission("hover", {"changes": change}), "wasm32", tmp_path / "x")
+        compile_mission(tl.load_mission("hover", {"changes": [change]}), target, tmp_path / "x")
+    path = tmp_path / "mine.py"
+    path.write_text(LAW.replace("@control.register(Gains)", "@control.register(Gains, compiled=False)"))
+    plain = tl.load_mission("hover", controller=load_controller(path))
+    said = r"controller.name = '.*': .* line \d+, is plain Python, of which no other machine has code"
+    with pytest.raises(tl.InputError, match=said):
+        compile_mission(plain, target, tmp_path / "x")
     assert not (tmp_path / "x").exists()
 
 
-@pytest.mark.parametrize("value", [0, 1, 63, 64, 127, 128, 300, 2**31 - 1])
-@pytest.mark.parametrize("padded", [0, 5])
-def test_numbers_of_webassembly_are_read_as_they_were_written(value: int, padded: int) -> None:
-    assert Reader(unsigned(value, padded)).unsigned() == value
-    for x in (value, -value):
-        assert Reader(signed(x, padded)).signed() == x
+def test_numbers_of_webassembly_are_read_as_they_were_written() -> None:
+    for value in (0, 1, 63, 64, 127, 128, 300, 2**31 - 1):
+        for padded in (0, 5):
+            assert Reader(unsigned(value, padded)).unsigned() == value
+            assert [Reader(signed(x, padded)).signed() for x in (value, -value)] == [value, -value]
 
 
 def test_numbers_of_webassembly_are_those_of_its_specification() -> None:

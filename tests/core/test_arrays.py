@@ -44,7 +44,7 @@ def positive_definite(chance, n):
 @pytest.mark.parametrize("n", [1, 2, 3, 4])
 def test_inverses_are_numpys(n):
     chance = np.random.default_rng(n)
-    for _ in range(20):
+    for _ in range(8):
         A = chance.normal(size=(n, n)) + 2.0 * np.eye(n)
         A[0, n // 2 :] = 0.0 if n > 2 else A[0, n // 2 :]
         graph, symbols = in_symbols(A)
@@ -60,7 +60,7 @@ def test_inverses_are_numpys(n):
 @pytest.mark.parametrize("kind", ["any", "diagonal", "equal", "blocks", "far apart"])
 def test_eigenvalues_and_vectors_are_those_of_lapack(n, kind):
     chance = np.random.default_rng(n)
-    for _ in range(10):
+    for _ in range(3):
         A = positive_definite(chance, n)
         if kind == "diagonal":
             A = np.diag(np.diag(A))
@@ -82,7 +82,7 @@ def test_eigenvalues_and_vectors_are_those_of_lapack(n, kind):
 
 def test_the_largest_eigenvalue_of_two_matrices_is_scipys():
     chance = np.random.default_rng(3)
-    for _ in range(10):
+    for _ in range(3):
         M, K = positive_definite(chance, 6), positive_definite(chance, 6)
         M[:3, 3:] = M[3:, :3] = 0.0
         graph, m, k = in_symbols(M, K)

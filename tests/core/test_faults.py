@@ -4,7 +4,7 @@ import subprocess
 import sys
 from typing import get_args
 
-import pytest
+from for_all import for_all
 
 from tandemlift.core.faults import ALARM_TEXTS, CHECKS, FAULTS, REACTION_MEANINGS, REACTIONS, Reaction
 from tandemlift.flight.channels import CHANNELS
@@ -22,22 +22,12 @@ def test_faults_and_checks_have_names_and_numbers_of_their_own():
     assert len({(check.before, check.key) for check in CHECKS}) == len(CHECKS)
 
 
-def test_alarms_of_recorded_flights_keep_their_numbers():
-    numbers = {
-        1: "imu",
-        5: "motion",
-        4: "gyroscope",
-        12: "state",
-        13: "orientation",
-        19: "rotor",
-        20: "speed_inconsistent",
-    }
+def test_alarms_and_phases_of_recorded_flights_keep_their_numbers():
+    texts = {0: "", 10: "imu stale", 41: "gyroscope frozen", 62: "position not a number", 190: "rotor failed"}
+    assert {number: ALARM_TEXTS[number] for number in texts} == texts
+    numbers = {5: "motion", 12: "state", 13: "orientation", 20: "speed_inconsistent"}
     assert {fault.number: fault.key for fault in FAULTS if fault.number in numbers} == numbers
-    assert ALARM_TEXTS[0] == ""
-    assert ALARM_TEXTS[10] == "imu stale"
-    assert ALARM_TEXTS[41] == "gyroscope frozen"
-    assert ALARM_TEXTS[62] == "position not a number"
-    assert ALARM_TEXTS[190] == "rotor failed"
+    assert CHANNELS["phase"].meaning == "0 idle, 1 lift, 2 guided, 3 land, 4 hold, 5 stopped, 6 contact, 7 limited"
 
 
 def test_every_fault_has_a_reaction_key_with_its_default():
@@ -45,7 +35,7 @@ def test_every_fault_has_a_reaction_key_with_its_default():
     assert set(REACTION_MEANINGS) == set(get_args(Reaction)) == set(REACTIONS)
 
 
-@pytest.mark.parametrize("fault", FAULTS, ids=lambda f: f.key)
+@for_all(FAULTS, lambda fault: fault.key)
 def test_the_reaction_to_a_fault_is_that_of_its_key_and_the_alarm_is_its_number(fault):
     symptom = float(len(fault.symptoms))
     present = NONE._replace(**{fault.key: symptom or 1.0})
@@ -70,10 +60,6 @@ def test_the_first_check_that_fails_is_reported():
             fails = {c.key: float(j >= i) for j, c in enumerate(checks)}
             assert first_failed(before, fails) == check.number
         assert first_failed(before, {c.key: 0.0 for c in checks}) == 0.0
-
-
-def test_the_channel_knows_every_phase():
-    assert CHANNELS["phase"].meaning == "0 idle, 1 lift, 2 guided, 3 land, 4 hold, 5 stopped, 6 contact, 7 limited"
 
 
 RECIPE = """

@@ -15,24 +15,9 @@ from law_values import array, numbers, random_state, vectors
 from patience import PATIENCE
 
 from tandemlift.core import vector
-from tandemlift.core.algebra import (
-    absolute,
-    atan2,
-    atan_ratio,
-    clip,
-    exp,
-    log,
-    maximum,
-    minimum,
-    power,
-    sin,
-    sqrt,
-    tanh,
-    where,
-)
+from tandemlift.core.algebra import absolute, clip, maximum, minimum
 from tandemlift.core.law import choice, elementwise
 from tandemlift.core.vector import ZERO, Mat3, Quat, Vec3, dot, each, mat3, vec3
-from tandemlift.parts.controllers.sliding_surface import Cubic, switching
 from tandemlift.parts.mechanics.rigid_body import State
 
 A, B = Vec3(1.0, -2.0, 3.0), Vec3(0.5, 4.0, -1.0)
@@ -48,26 +33,24 @@ def test_vectors_add_scale_and_multiply_component_by_component(a, b, k):
     assert array(a * k) == pytest.approx(x * k)
     assert k * a == a * k
     assert array(-a) == pytest.approx(-x)
-
-
-def test_vectors_divide_by_numbers_and_by_vectors():
-    half, ratio = A / 2.0, A / B
-    assert half == Vec3(0.5, -1.0, 1.5)
-    assert ratio == Vec3(2.0, -0.5, -3.0)
+    assert array(a / 7.0) == pytest.approx(x / 7.0)
+    assert array(a / A) == pytest.approx(x / array(A))
 
 
 @pytest.mark.parametrize("compare", [operator.lt, operator.le, operator.gt, operator.ge])
-@pytest.mark.parametrize("value", [A, Q, mat3(np.eye(3)), each(8)(*range(8))])
-def test_values_have_no_order(compare, value):
-    with pytest.raises(TypeError, match="no order"):
-        compare(value, value)
+def test_values_have_no_order(compare):
+    for value in (A, Q, mat3(np.eye(3)), each(8)(*range(8))):
+        with pytest.raises(TypeError, match="no order"):
+            compare(value, value)
 
 
 @pytest.mark.parametrize("combine", [operator.add, operator.sub, operator.mul, operator.truediv])
-@pytest.mark.parametrize("other", [Q, (1.0, 2.0, 3.0), each(4)(1.0, 2.0, 3.0, 4.0)])
-def test_values_of_different_kinds_do_not_mix(combine, other):
+def test_values_of_different_kinds_do_not_mix(combine):
+    for other in (Q, (1.0, 2.0, 3.0), each(4)(1.0, 2.0, 3.0, 4.0)):
+        with pytest.raises(TypeError, match="Vec3"):
+            combine(A, other)
     with pytest.raises(TypeError, match="Vec3"):
-        combine(A, other)
+        np.cos(A)
 
 
 def test_quaternions_are_multiplied_by_name_only():
@@ -76,37 +59,24 @@ def test_quaternions_are_multiplied_by_name_only():
     assert Q * 2.0 == 2.0 * Q == Quat(2.0, 0.0, 0.0, 0.0)
 
 
-@pytest.mark.parametrize("k", [np.float64(2.0), np.float32(2.0), np.int64(2), 2.0, 2])
-def test_a_scalar_of_any_kind_may_stand_on_the_left(k):
-    assert k * A == Vec3(2.0, -4.0, 6.0)
-    assert isinstance(k * A, Vec3)
-    assert k * each(4)(1.0, 2.0, 3.0, 4.0) == each(4)(2.0, 4.0, 6.0, 8.0)
-
-
-def test_an_array_on_the_left_broadcasts_into_the_components():
+def test_a_scalar_of_any_kind_or_an_array_may_stand_on_the_left():
+    for k in (np.float64(2.0), np.float32(2.0), np.int64(2), 2.0, 2):
+        assert k * A == Vec3(2.0, -4.0, 6.0)
+        assert isinstance(k * A, Vec3)
+        assert k * each(4)(1.0, 2.0, 3.0, 4.0) == each(4)(2.0, 4.0, 6.0, 8.0)
     batch = np.array([1.0, 2.0]) * A
     assert isinstance(batch, Vec3)
     assert np.array_equal(batch.z, [3.0, 6.0])
 
 
-def test_numpy_functions_refuse_values():
-    with pytest.raises(TypeError, match="Vec3"):
-        np.cos(A)
-
-
-def test_states_add_and_scale_whole():
-    s = random_state(np.random.default_rng(0))
+def test_states_and_matrices_add_and_scale_whole():
+    s, one = random_state(np.random.default_rng(0)), mat3(np.eye(3))
     twice = s + s
     assert isinstance(twice, State)
     assert twice == s * 2.0
     assert isinstance(twice.attitude, Quat)
-
-
-def test_matrices_add_and_scale_by_rows():
-    one = mat3(np.eye(3))
-    double, nothing = one + one, one - one
-    assert double == one * 2.0
-    assert nothing == Mat3(ZERO, ZERO, ZERO)
+    assert one + one == one * 2.0
+    assert one - one == Mat3(ZERO, ZERO, ZERO)
 
 
 def test_rotor_sets_are_one_class_for_each_number_of_rotors_and_survive_pickling():
@@ -116,7 +86,7 @@ def test_rotor_sets_are_one_class_for_each_number_of_rotors_and_survive_pickling
     assert eight + eight == eight * 2.0
     assert dot(eight, eight) == 140.0
     with pytest.raises(AttributeError, match="Each"):
-        __import__("tandemlift.core.vector", fromlist=["x"]).EachOfDoom  # noqa: B018
+        vector.EachOfDoom  # noqa: B018
 
 
 def test_values_are_made_from_any_numbers_as_floats():
@@ -131,21 +101,7 @@ def test_elementwise_laws_take_vectors_numbers_and_both():
     assert maximum(A, B) == Vec3(1.0, 4.0, 3.0)
     assert minimum(A, 0.0) == Vec3(0.0, -2.0, 0.0)
     assert clip(A, -1.0, Vec3(0.5, 0.5, 0.5)) == Vec3(0.5, -1.0, 0.5)
-    assert sin(0.0) == 0.0
-
-
-def test_a_law_of_scalars_of_ones_own_maps_over_vectors():
-    @elementwise
-    def double(x):
-        return x * 2.0
-
-    assert double(A) == A * 2.0
-    assert double(3.0) == 6.0
-
-
-def test_an_unknown_type_is_refused_with_the_types_that_are_known():
-    with pytest.raises(TypeError, match=r"switching\(\) has no law for Cubic; it knows Saturation, Sign, Tanh"):
-        switching(Cubic(), A)
+    assert elementwise(lambda x: x * 2.0)(A) == A * 2.0
 
 
 def test_a_choice_takes_a_type_of_ones_own():
@@ -164,19 +120,6 @@ def test_a_choice_takes_a_type_of_ones_own():
     assert not pick.interpreted
     pick.register(Mine, compiled=False)(lambda kind, x: x)
     assert pick.interpreted == {Mine}
-
-
-def test_elementary_operations_on_numbers_hold_at_their_edges():
-    assert np.isnan(sqrt(-1.0))
-    assert exp(1e4) == exp(709.0) < np.inf
-    assert tanh(1e3) == 1.0
-    assert power(0.0, 0.0) == 1.0
-    assert power(0.0, 2.0) == 0.0
-    assert atan_ratio(1.0, 0.0) == pytest.approx(np.pi / 2)
-    assert atan_ratio(1.0, -1.0) == pytest.approx(-np.pi / 4)
-    assert atan2(-1.0, -1.0) == pytest.approx(-3.0 * np.pi / 4)
-    assert log(np.e) == 1.0
-    assert where(True, 1.0, 2.0) == 1.0
 
 
 def test_two_threads_that_need_a_set_for_the_first_time_get_the_same_class(monkeypatch):

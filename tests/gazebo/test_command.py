@@ -18,9 +18,8 @@ TANDEMLIFT = [sys.executable, "-m", "tandemlift", "gazebo"]
 
 
 def test_a_crash_is_ended_said_and_flown_on_as_in_the_compiled_engine(tmp_path):
-    falling = {"initial.position": "[0, 0, 2.2]", "initial.euler": "[0.7, 0.9, 0]", "ground.height": "0.0"}
-    settings = [f"{key}={value}" for key, value in (falling | {"phases.lift_start": "5.0"}).items()]
-    options = [word for setting in settings for word in ("--set", setting)]
+    falling = ("initial.position=[0, 0, 2.2]", "initial.euler=[0.7, 0.9, 0]", "ground.height=0.0")
+    options = [f"--set={setting}" for setting in (*falling, "phases.lift_start=5.0")]
     for engine, command in {
         "gazebo": [*TANDEMLIFT, "iris", "--fast", "--no-window"],
         "compiled": [*TANDEMLIFT[:-1], "run", "iris"],
@@ -41,15 +40,8 @@ def test_the_window_opens_and_closes_with_the_flight(tmp_path, program):
     screen = Screen(program("Xvfb"), tmp_path / "screen")
     try:
         dark = screen.picture()
-        command = [
-            *TANDEMLIFT,
-            "zigzag",
-            "--set",
-            "mission.duration=20.0",
-            "--no-figures",
-            "--out",
-            str(tmp_path / "out"),
-        ]
+        options = ["--set", "mission.duration=20.0", "--no-figures", "--out", str(tmp_path / "out")]
+        command = [*TANDEMLIFT, "zigzag", *options]
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, env=os.environ | {"DISPLAY": screen.name})
         until(lambda: np.mean((dark != screen.picture()).any(axis=2)) > 0.2, "a window")
         assert ended(process, None, COMPILING) == 0

@@ -28,8 +28,7 @@ def check(seen):
     return completed(shell_command(root(), script), capture_output=True, text=True, check=False).stdout
 
 
-@pytest.mark.parametrize("name", ["paper", "four", "heavy-payload", "zigzag"])  # all are read in tests/engines/models
-@pytest.mark.parametrize("plugin", [None, 19110, "ros"])
+@pytest.mark.parametrize(("name", "plugin"), [("four", None), ("heavy-payload", 19110), ("zigzag", "ros")])
 def test_gazebo_finds_no_fault_with_a_world(name, plugin, folder):
     path, seen = folder
     export(tl.load_mission(name), path / "it.sdf", plugin=plugin)

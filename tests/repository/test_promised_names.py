@@ -8,8 +8,6 @@ import re
 import sys
 from pathlib import Path
 
-import numpy as np
-
 RECORD = Path(__file__).with_name("public_names.txt")
 ROOT = Path(__file__).parents[2]
 GONE, NEW = "gone", "new"  # since 1.0.0
@@ -82,14 +80,6 @@ def test_a_name_that_comes_or_goes_needs_an_entry_above_that_of_1_0_0():
     assert record == {"key a.kept": "", "command fly --old": GONE, "key b.back": NEW, "metric x": NEW}
     assert unexplained(record, "\n## [1.0.0]\n--old, b.back and x\n") == ["command fly --old", "key b.back", "metric x"]
     assert unexplained(record, "`fly --old` is gone; new: `b.back`, `x`\n\n## [1.0.0]\n") == []
-
-
-def test_metrics_of_a_flight_are_recorded_ones():
-    import tandemlift as tl
-
-    metrics = tl.fly(tl.load_mission("one-push")).metrics()
-    assert {f"metric {name}" for name in metrics} <= recorded().keys()
-    assert np.shape(metrics["position_rmse_m"]) == (3,)
 
 
 if __name__ == "__main__":

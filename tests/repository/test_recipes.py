@@ -5,38 +5,13 @@ The other recipes name the tests that follow them.
 
 from __future__ import annotations
 
-import os
-import shutil
-import sys
-from collections.abc import Callable
+import json
 
 import pytest
+from edited_package import EditedPackage
 from listings import LAW as LISTED_CONTROLLER
-from patience import completed
-from repository import ROOT
 
-Edits = dict[str, list[tuple[str, str]]]
-
-
-@pytest.fixture
-def with_edits(tmp_path) -> Callable[[Edits, str], None]:
-    """Run a script with a copy of the package in which texts are replaced; "" is replaced by a new file's text."""
-
-    def run(edits: Edits, script: str) -> None:
-        source = ROOT / "src" / "tandemlift"
-        package = shutil.copytree(source, tmp_path / "tandemlift", ignore=shutil.ignore_patterns("__pycache__", "page"))
-        for name, changes in edits.items():
-            text = (package / name).read_text("utf-8") if (package / name).exists() else ""
-            for before, after in changes:
-                assert before in text or not text, f"{name}: {before}"
-                text = text.replace(before, after, 1) if before else after
-            (package / name).write_text(text, "utf-8")
-        environment = {**os.environ, "PYTHONPATH": str(tmp_path), "TANDEMLIFT_CACHE": str(tmp_path / "cache")}
-        command = [sys.executable, "-c", script]
-        done = completed(command, capture_output=True, text=True, env=environment, cwd=tmp_path, check=False)
-        assert done.returncode == 0, done.stderr
-
-    return run
+Edits = dict[str, list[tuple[str, str]]]  # texts to be replaced by others, by file; "" by a new file's text
 
 
 SPIN_UP = "    spin_up_time: NonNegative = key("
@@ -64,10 +39,6 @@ except tl.InputError as error:
 else:
     raise AssertionError("a value that is not allowed")
 """
-
-
-def test_a_key_touches_one_file(with_edits):
-    with_edits(KEY, KEY_IS_KNOWN)
 
 
 GATE = '''class SmoothGate(NamedTuple):
@@ -112,10 +83,6 @@ assert np.abs(F).max() > 1.0
 """
 
 
-def test_a_variant_of_a_law_touches_its_law_its_key_and_where_it_is_chosen(with_edits):
-    with_edits(LAW, LAW_FLIES)
-
-
 SENSOR_LAW = """
 
 @register_sensor(additional("rangefinder", "m", "height above the floor at z = 0"))
@@ -148,10 +115,6 @@ def error_of_height(additional):
 assert error_of_height([]) > 0.15
 assert error_of_height([{"name": "rangefinder"}]) < 0.02
 """
-
-
-def test_a_sensor_that_an_estimator_uses_touches_its_law_and_the_estimator(with_edits):
-    with_edits(SENSOR, SENSOR_IS_USED)
 
 
 FINDING: Edits = {
@@ -191,10 +154,6 @@ assert "high" not in found(1.5, **{"findings.ignore": ["high"]})
 """
 
 
-def test_a_finding_touches_two_files(with_edits):
-    with_edits(FINDING, FINDING_IS_FOUND)
-
-
 METRIC: Edits = {
     "simulation/loop/running_metrics.py": [
         (
@@ -232,10 +191,6 @@ assert flight.metrics()["speed_max_m_s"] == np.linalg.norm(flight["velocity"], a
 """
 
 
-def test_a_metric_touches_two_files(with_edits):
-    with_edits(METRIC, METRIC_IS_FORMED)
-
-
 LIST = "from tandemlift.parts.controllers import geometric"
 CONTROLLER: Edits = {
     "parts/controllers/my_pd.py": [("", LISTED_CONTROLLER)],
@@ -249,10 +204,6 @@ metrics = tl.fly(tl.load_mission("hover", {"controller.name": "my-pd", "controll
 assert abs(metrics["final_position_m"][2] - metrics["final_reference_m"][2]) < 0.01
 assert "[controller] of my-pd" in explained("controller", "my-pd")
 """
-
-
-def test_the_controller_of_the_guide_becomes_one_of_the_package_by_an_import(with_edits):
-    with_edits(CONTROLLER, CONTROLLER_FLIES)
 
 
 BODY = '''"""A point mass, which does not turn."""
@@ -304,6 +255,39 @@ assert np.ptp(rigid["position"][:, 2]) > 0.9
 np.testing.assert_allclose(point["position"], rigid["position"], atol=1e-3)
 """
 
+RECIPES = {
+    "a key touches one file": (KEY, KEY_IS_KNOWN),
+    "a variant of a law touches its law, its key and where it is chosen": (LAW, LAW_FLIES),
+    "a sensor that an estimator uses touches its law and the estimator": (SENSOR, SENSOR_IS_USED),
+    "a finding touches two files": (FINDING, FINDING_IS_FOUND),
+    "a metric touches two files": (METRIC, METRIC_IS_FORMED),
+    "the controller of the guide becomes one of the package by an import": (CONTROLLER, CONTROLLER_FLIES),
+    "an engine is a class and an entry": (ENGINE, ENGINE_FLIES),
+}
+RUN_ALL = """
+import json, traceback
+wrong = {}
+for name, script in SCRIPTS.items():
+    try:
+        exec(script, {})
+    except Exception:
+        wrong[name] = traceback.format_exc()
+print(json.dumps(wrong))
+"""
 
-def test_an_engine_is_a_class_and_an_entry(with_edits):
-    with_edits(ENGINE, ENGINE_FLIES)
+
+@pytest.fixture(scope="module")
+def wrong(tmp_path_factory) -> dict[str, str]:
+    """What fails in a copy of the package that follows all recipes: tracebacks by recipe."""
+    package = EditedPackage(tmp_path_factory.mktemp("recipes"))
+    for edits, _ in RECIPES.values():
+        for path, changes in edits.items():
+            for before, after in changes:
+                package.replace(path, before, after) if before else package.write(path, after)
+    scripts = {name: script for name, (_, script) in RECIPES.items()}
+    return json.loads(package.run(f"SCRIPTS = {scripts!r}\n{RUN_ALL}"))
+
+
+@pytest.mark.parametrize("recipe", RECIPES)
+def test_a_recipe_does_what_it_says(recipe, wrong):
+    assert recipe not in wrong, wrong[recipe]

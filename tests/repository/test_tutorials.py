@@ -5,6 +5,7 @@ import re
 import sys
 
 import pytest
+from for_all import for_all
 from patience import completed
 from repository import ROOT
 
@@ -42,7 +43,7 @@ def test_there_is_a_tutorial_of_each_example_and_an_example_of_each_tutorial():
     assert scripts == NAMES
 
 
-@pytest.mark.parametrize("page", NAMES)
+@for_all(NAMES)
 def test_the_cells_of_a_tutorial_are_the_example_of_its_name(page):
     assert code_of_page(page) == code_of_script(page)
 
@@ -52,25 +53,21 @@ def test_the_controller_that_a_tutorial_writes_is_the_one_of_the_examples():
     assert [text.partition("\n")[2] for text in written] == [(EXAMPLES / OWN).read_text("utf-8")]
 
 
-@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.py")), ids=lambda path: path.name)
-def test_an_example_is_short(path):
-    assert len(path.read_text("utf-8").splitlines()) <= MOST
+def test_examples_are_short():
+    assert [path.name for path in EXAMPLES.glob("*.py") if len(path.read_text("utf-8").splitlines()) > MOST] == []
 
 
-@pytest.mark.parametrize("page", NAMES)
+@for_all(NAMES)
 def test_a_tutorial_says_what_else_to_try_and_how_it_goes_on_the_command_line(page):
     text = (PAGES / f"{page}.md").read_text("utf-8")
     assert re.search(r"^## On the command line\n\n```sh\ntandemlift ", text, flags=re.M)
     assert re.search(r"^## What to try next\n\n- ", text, flags=re.M)
 
 
-def notebook_cells():
-    notebook = json.loads((EXAMPLES / "first_flight.ipynb").read_text("utf-8"))
-    return [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
-
-
 def test_the_notebook_is_kept_without_outputs():
-    assert all(cell["outputs"] == [] and cell["execution_count"] is None for cell in notebook_cells())
+    cells = json.loads((EXAMPLES / "first_flight.ipynb").read_text("utf-8"))["cells"]
+    code = [cell for cell in cells if cell["cell_type"] == "code"]
+    assert all(cell["outputs"] == [] and cell["execution_count"] is None for cell in code)
 
 
 @pytest.mark.examples

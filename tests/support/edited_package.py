@@ -24,12 +24,16 @@ class EditedPackage:
         assert not (self.folder / "tandemlift" / path).exists()
         (self.folder / "tandemlift" / path).write_text(text, "utf-8")
 
-    def insert(self, path, after, text):
-        """Put text after a piece that a file has once."""
+    def replace(self, path, before, after):
+        """Put one text in the place of another that a file has; of several, the first."""
         file = self.folder / "tandemlift" / path
-        before = file.read_text("utf-8")
-        assert before.count(after) == 1, f"{path} has {after!r} {before.count(after)} times"
-        file.write_text(before.replace(after, after + text), "utf-8")
+        text = file.read_text("utf-8")
+        assert before in text, f"{path} has no {before!r}"
+        file.write_text(text.replace(before, after, 1), "utf-8")
+
+    def insert(self, path, after, text):
+        """Put text after a piece that a file has."""
+        self.replace(path, after, after + text)
 
     def run(self, program):
         """What a Python program prints that imports the copy."""

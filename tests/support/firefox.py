@@ -64,16 +64,12 @@ class Firefox:
     def drag(self, start: tuple[float, float], way: tuple[float, float], pieces: int = 20) -> None:
         """Press, move in some pieces, and stay pressed."""
         x, y = start
-        moves = [
-            {
-                "type": "pointerMove",
-                "x": round(x + way[0] * i / pieces),
-                "y": round(y + way[1] * i / pieces),
-                "duration": 25,
-            }
-            for i in range(1, pieces + 1)
-        ]
-        press = [{"type": "pointerMove", "x": round(x), "y": round(y)}, {"type": "pointerDown", "button": 0}]
+
+        def to(share: float, **more: int) -> dict[str, Any]:
+            return {"type": "pointerMove", "x": round(x + way[0] * share), "y": round(y + way[1] * share), **more}
+
+        moves = [to(i / pieces, duration=25) for i in range(1, pieces + 1)]
+        press = [to(0.0), {"type": "pointerDown", "button": 0}]
         self._act({"type": "pointer", "id": "mouse", "actions": [*press, *moves]})
 
     def drop(self) -> None:
@@ -82,9 +78,8 @@ class Firefox:
 
     def press(self, key: str) -> None:
         """Press a key, by its character in WebDriver."""
-        self._act(
-            {"type": "key", "id": "keys", "actions": [{"type": kind, "value": key} for kind in ("keyDown", "keyUp")]}
-        )
+        actions = [{"type": kind, "value": key} for kind in ("keyDown", "keyUp")]
+        self._act({"type": "key", "id": "keys", "actions": actions})
 
     def _act(self, actions: dict[str, Any]) -> None:
         self.command("input.performActions", context=self._page, actions=[actions])

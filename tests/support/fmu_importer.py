@@ -118,12 +118,6 @@ class Instance:
         references = (c_uint32 * len(values))(*range(first, first + len(values)))
         return self("SetReal", references, c_size_t(len(values)), pointer)
 
-    def set_truth(self, name: str, value: bool) -> int:
-        one = (c_uint32 * 1)(self.fmu.places[name])
-        if self.fmu.fmi == 2:
-            return self("SetBoolean", one, c_size_t(1), (c_int * 1)(value))
-        return self("SetBoolean", one, c_size_t(1), (c_bool * 1)(value), c_size_t(1))
-
     def first_of(self, name: str) -> int:
         """The reference of the first scalar of an array in FMI 2."""
         return next(at for key, at in self.fmu.places.items() if key.startswith((f"{name}_", f"{name}.")))

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import asyncio
-import base64
 import contextlib
 import http.client
 import json
-import os
-import select
 import socket
 import struct
 import threading
@@ -18,7 +15,12 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from patience import PATIENCE, joined, until
+from websockets.client import ClientProtocol
+from websockets.frames import Frame, Opcode
+from websockets.protocol import State
 from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Origin
+from websockets.uri import parse_uri
 
 from tandemlift.apps.live.server import PageServer, serve_until_stopped
 
@@ -158,77 +160,38 @@ class Good:
 
 
 class Raw:
-    """A WebSocket made by hand, whose client can violate the protocol."""
+    """A WebSocket that reads when it is told to, and can violate the protocol."""
 
     def __init__(self, port: int) -> None:
         self.socket = socket.create_connection(("127.0.0.1", port), PATIENCE)
-        key = base64.b64encode(os.urandom(16)).decode()
-        lines = [
-            "GET /ws HTTP/1.1",
-            f"Host: 127.0.0.1:{port}",
-            f"Origin: http://127.0.0.1:{port}",
-            "Upgrade: websocket",
-            "Connection: Upgrade",
-            f"Sec-WebSocket-Key: {key}",
-            "Sec-WebSocket-Version: 13",
-        ]
-        self.socket.sendall(("\r\n".join(lines) + "\r\n\r\n").encode())
-        answer = b""
-        while b"\r\n\r\n" not in answer:
+        address = parse_uri(f"ws://127.0.0.1:{port}/ws")
+        self._protocol = ClientProtocol(address, origin=Origin(f"http://127.0.0.1:{port}"), max_size=None)
+        self._protocol.send_request(self._protocol.connect())
+        self.socket.sendall(b"".join(self._protocol.data_to_send()))
+        while self._protocol.state is State.CONNECTING:
             piece = self.socket.recv(1)
-            assert piece, f"the server hung up after {answer!r}"
-            answer += piece
-        assert answer.startswith(b"HTTP/1.1 101"), answer
+            assert piece, f"the server hung up: {self._protocol.handshake_exc}"
+            self._protocol.receive_data(piece)
 
-    def send(self, *texts: bytes, opcode: int = 1) -> None:
-        self.socket.sendall(b"".join(masked(text, opcode) for text in texts))
-
-    def skip(self) -> None:
-        """Read all that has arrived; a viewer that does not read is disconnected."""
-        while select.select([self.socket], [], [], 0.0)[0]:
-            if not self.socket.recv(65_536):
-                raise ConnectionError("the server hung up")
+    def send(self, *texts: bytes) -> None:
+        self.socket.sendall(b"".join(Frame(Opcode.TEXT, text).serialize(mask=True) for text in texts))
 
     def hear(self, text: bytes) -> None:
         """Read until a message has arrived."""
-        last = b""
         for piece in pieces(self.socket):
-            last = last[-len(text) :] + piece
-            if text in last:
+            self._protocol.receive_data(piece)
+            if any(isinstance(event, Frame) and text in event.data for event in self._protocol.events_received()):
                 return
         raise ConnectionError(f"the server hung up before it said {text!r}")
 
     def closed(self) -> int:
         """Read until the server closes; the code of its close frame, 0 without one."""
-        data = b""
         with contextlib.suppress(ConnectionError):
             for piece in pieces(self.socket):
-                data += piece
-        at = code = 0
-        while at + 2 <= len(data):
-            size, start = data[at + 1], at + 2
-            if size == 126:
-                size, start = int.from_bytes(data[at + 2 : at + 4], "big"), at + 4
-            elif size == 127:
-                size, start = int.from_bytes(data[at + 2 : at + 10], "big"), at + 10
-            if data[at] & 15 == 8:
-                code = int.from_bytes(data[start : start + 2], "big")
-            at = start + size
-        return code
+                self._protocol.receive_data(piece)
+        return self._protocol.close_rcvd.code if self._protocol.close_rcvd else 0
 
     def kill(self) -> None:
         """Disconnect without a close frame, as a killed process does."""
         self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
         self.socket.close()
-
-
-def masked(payload: bytes, opcode: int = 1) -> bytes:
-    """A whole frame from a client (RFC 6455, 5.2), with the mask 0, which leaves the payload as it is."""
-    n = len(payload)
-    if n < 126:
-        size = bytes([128 + n])
-    elif n < 65536:
-        size = bytes([254]) + n.to_bytes(2, "big")
-    else:
-        size = bytes([255]) + n.to_bytes(8, "big")
-    return bytes([128 + opcode]) + size + bytes(4) + payload

@@ -6,7 +6,6 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.missions import built_in
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 PLACES = [[0.1, 1.0, 0.2], [-0.2, -1.1, 0.15], [0.9, 0.1, 0.1], [-0.8, 0.2, -0.1]]
@@ -22,8 +21,9 @@ def fleet(count):
     return {"vehicle.quadrotors": quadrotors, "initial.position": 0.0, "initial.euler": 0.0}
 
 
-MISSIONS = {  # all that are built in, and vehicles unlike theirs
-    **{name: (name, {}) for name in built_in()},
+BUILT_IN = ("paper", "iris", "four", "zigzag", "heavy-payload", "crazyflie-stick", "two-x500")
+MISSIONS = {  # each has another vehicle or scene; and vehicles unlike theirs
+    **{name: (name, {}) for name in BUILT_IN},
     "one": ("paper", {**fleet(1), "vehicle.quadrotors.0.position": [0.0, 0.0, 0.2]}),
     "unlike": ("paper", {**fleet(4), **TILTED}),
     "as it really is": ("paper", LIGHTER),

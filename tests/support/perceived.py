@@ -81,8 +81,6 @@ DEVICES = sensors(2, STEP)
 HISS = zero_noise(DEVICES)
 PUSHES = push_estimator(EstimatorTable(), vehicle_of(paper_parts()), STEP)
 OBSERVER = navigator_from(EstimatorTable(), SensorsTable(), ZERO, STEP)
-SENSING = start_sensing(DEVICES, STATE, FELT, STATE.attitude)
-READ = readings_of(SENSING)
 
 
 class Happening(NamedTuple):
@@ -103,31 +101,6 @@ class Onboard(NamedTuple):
     navigation: NavigationState
 
 
-class Seen(NamedTuple):
-    """The outputs of a step."""
-
-    push: PushEstimate
-    state: State
-    readings: Readings
-    navigation: NavigationState
-
-
-ONBOARD = Onboard(DEVICES, PUSHES, OBSERVER, SENSING, start_push(PUSHES, READ.imu), start_navigation(OBSERVER, STATE))
-LIKE = Happening(STATE, FELT)
-_push, _memory = estimate(PUSHES, ONBOARD.push_memory, READ.imu, 0.0)
-_state, _navigation = navigate(OBSERVER, ONBOARD.navigation, READ)
-SEEN = Seen(_push, _state, READ, _navigation)
-
-
-def step(x: Onboard, truth: Any, hiss: Any, t: Any) -> Any:
-    """(outputs, next Onboard) of a step, without delay."""
-    readings, sensing = sense(x.sensors, x.sensing, truth.state, truth.felt, truth.state.attitude, hiss)
-    push, push_memory = estimate(x.pushes, x.push_memory, readings.imu, t)
-    state, navigation = navigate(x.observer, x.navigation, readings)
-    after = Onboard(x.sensors, x.pushes, x.observer, sensing, push_memory, navigation)
-    return Seen(push, state, readings, navigation), after
-
-
 class Given(NamedTuple):
     """The inputs of a step."""
 
@@ -136,14 +109,13 @@ class Given(NamedTuple):
     time: Any
 
 
-def step_of(fixed: Any, x: Onboard, given: Given) -> Any:
-    return step(x, given.truth, given.hiss, given.time)
+class Seen(NamedTuple):
+    """The outputs of a step."""
 
-
-@functools.cache
-def loop() -> Loop:
-    """All steps of a flight, in machine code."""
-    return Loop(step_of, Absent(), ONBOARD, Given(LIKE, HISS, 0.0))
+    push: PushEstimate
+    state: State
+    readings: Readings
+    navigation: NavigationState
 
 
 def onboard(
@@ -156,14 +128,29 @@ def onboard(
     """Sensors and estimators before the first step; the observer starts at `believed`, or at the true state."""
     start = first.state if believed is None else believed
     sensing = start_sensing(devices, first.state, first.felt, start.attitude)
-    return Onboard(
-        devices,
-        pushes,
-        observer,
-        sensing,
-        start_push(pushes, readings_of(sensing).imu),
-        start_navigation(observer, start),
-    )
+    memories = sensing, start_push(pushes, readings_of(sensing).imu), start_navigation(observer, start)
+    return Onboard(devices, pushes, observer, *memories)
+
+
+def step_of(fixed: Any, x: Onboard, given: Given) -> Any:
+    """(Outputs, next Onboard) of a step, without delay."""
+    truth = given.truth
+    readings, sensing = sense(x.sensors, x.sensing, truth.state, truth.felt, truth.state.attitude, given.hiss)
+    push, push_memory = estimate(x.pushes, x.push_memory, readings.imu, given.time)
+    state, navigation = navigate(x.observer, x.navigation, readings)
+    after = x._replace(sensing=sensing, push_memory=push_memory, navigation=navigation)
+    return Seen(push, state, readings, navigation), after
+
+
+LIKE = Happening(STATE, FELT)
+ONBOARD, GIVEN = onboard(LIKE), Given(LIKE, HISS, 0.0)
+SEEN, _ = step_of(Absent(), ONBOARD, GIVEN)
+
+
+@functools.cache
+def loop() -> Loop:
+    """All steps of a flight, in machine code."""
+    return Loop(step_of, Absent(), ONBOARD, GIVEN)
 
 
 def perceived(x: Onboard, truth: np.ndarray, seed: int = 0, step_size: float = STEP) -> Any:

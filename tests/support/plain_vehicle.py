@@ -60,7 +60,7 @@ class PlainVehicle:
             lifted = np.zeros_like(lever)
             lifted[..., 2] = thrust / self.mass
             found.append(np.concatenate([x, lifted + lever], -1))
-            two, three = motion(x + 0.5 * h * one)[0], None
+            two = motion(x + 0.5 * h * one)[0]
             three = motion(x + 0.5 * h * two)[0]
             four = motion(x + h * three)[0]
             x = x + h / 6.0 * (one + 2.0 * two + 2.0 * three + four)

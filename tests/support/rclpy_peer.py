@@ -102,22 +102,17 @@ class Peer:
         return [s.message for m in self.heard["/diagnostics"] for s in m.status if s.name == "tandemlift: pilot"]
 
 
+def facts_of(d):
+    """What a descriptor says of a parameter."""
+    ranges = [[r.from_value, r.to_value] for r in d.floating_point_range]
+    return [d.name, d.description, d.additional_constraints, ranges]
+
+
 def by_rclpy(peer):
     yield "names", peer.node.get_node_names()
     yield "lift", [(r := peer.call("lift", Trigger)).success, r.message]
     described = peer.call("describe_parameters", DescribeParameters, names=["admittance.mass", "person.max_force"])
-    yield (
-        "described",
-        [
-            [
-                d.name,
-                d.description,
-                d.additional_constraints,
-                [[r.from_value, r.to_value] for r in d.floating_point_range],
-            ]
-            for d in described.descriptors
-        ],
-    )
+    yield "described", [facts_of(d) for d in described.descriptors]
     mass = "admittance.mass"
     yield "started", peer.values("admittance.threshold")
     yield "set", peer.set((mass, 4))

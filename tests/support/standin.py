@@ -10,17 +10,7 @@ import numpy as np
 from patience import PATIENCE, joined
 
 from tandemlift.apps.live.session.frames import layout_for, pack_frames
-from tandemlift.apps.live.session.page_messages import (
-    ForceMessage,
-    GrabMessage,
-    MoveMessage,
-    PageMessage,
-    ReleaseMessage,
-    ResetMessage,
-    RestoreMessage,
-    SaveMessage,
-    SetMessage,
-)
+from tandemlift.apps.live.session.page_messages import PageMessage
 from tandemlift.apps.live.session.scene_builder import SPRING, scene_of
 from tandemlift.core.errors import InputError
 from tandemlift.missions import load_mission
@@ -86,30 +76,31 @@ class StandIn:
             self._target, self._force = None, np.zeros(3)
 
     def apply(self, message: PageMessage) -> list[Any]:
-        if isinstance(message, SetMessage | SaveMessage | ResetMessage) and self._wait:
+        if message.type in ("set", "save", "reset") and self._wait:
             assert self._wait.wait(PATIENCE)
         with self._lock:
             self.heard.append(message)
             self._seq = message.seq
             return self._applied(message)
 
-    def _applied(self, message: PageMessage) -> list[Any]:
-        if isinstance(message, GrabMessage | MoveMessage):
-            self._target = np.array(message.target)
-        elif isinstance(message, ForceMessage):
-            self._force = np.array(message.force)
-        elif isinstance(message, ReleaseMessage):
-            self._target, self._force = None, np.zeros(3)
-        elif isinstance(message, ResetMessage):
-            self.generation += 1
-            self._x, self._v = np.zeros(3), np.zeros(3)
-        elif isinstance(message, SaveMessage):
-            return [{"type": "done", "what": "save", "detail": message.name}]
-        elif isinstance(message, RestoreMessage):
-            keys = [message.key] if message.key else ["admittance.mass", "admittance.damping"]
-            return [{"type": "changed", "key": key, "value": [1.0], "duration": 0.0} for key in keys]
-        elif isinstance(message, SetMessage):
-            if message.key != "admittance.mass":
-                raise InputError(f"{message.key}: cannot be changed in flight")
-            return [{"type": "changed", "key": message.key, "value": message.value, "duration": 0.5}]
+    def _applied(self, message: Any) -> list[Any]:
+        match message.type:
+            case "grab" | "move":
+                self._target = np.array(message.target)
+            case "force":
+                self._force = np.array(message.force)
+            case "release":
+                self._target, self._force = None, np.zeros(3)
+            case "reset":
+                self.generation += 1
+                self._x, self._v = np.zeros(3), np.zeros(3)
+            case "save":
+                return [{"type": "done", "what": "save", "detail": message.name}]
+            case "restore":
+                keys = [message.key] if message.key else ["admittance.mass", "admittance.damping"]
+                return [{"type": "changed", "key": key, "value": [1.0], "duration": 0.0} for key in keys]
+            case "set":
+                if message.key != "admittance.mass":
+                    raise InputError(f"{message.key}: cannot be changed in flight")
+                return [{"type": "changed", "key": message.key, "value": message.value, "duration": 0.5}]
         return []

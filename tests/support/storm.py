@@ -78,30 +78,22 @@ def calm(changes: dict[str, Any] | None = None) -> Any:
 
 def storms(count: int) -> list[Any]:
     """Missions that differ in all that can differ within one compiled loop."""
-    rng = np.random.default_rng(4)
-    return [
-        storm(
-            {
-                "mission.seed": i,
-                "plant.mass_scale": 1.0 + 0.02 * i,
-                "wind.velocity": rng.uniform(-2.0, 2.0, 3).tolist(),
-                "wind.turbulence": 1.0 + i,
-                "wind.gusts": [
-                    {"velocity": rng.uniform(-2.0, 2.0, 3).tolist(), "start": 1.0 + j, "rise": 0.3}
-                    for j in range(i % 3)
-                ],
-                "walls": [{"start": [0.5 - 0.02 * j, -3.0], "end": [0.4, 3.0]} for j in range(1 + i % 3)],
-                "faults": [{"quadrotor": 1 + i % 2, "rotor": 1 + i % 4, "time": 0.5 * i, "efficiency": 0.1 * i}],
-                "pushes": [
-                    {
-                        "force": rng.uniform(-2.0, 2.0, 3).tolist(),
-                        "time": 1.0 + 0.4 * j,
-                        "sigma": 0.2,
-                        "point": [0.0, 0.5, 0.0],
-                    }
-                    for j in range(1 + i % 4)
-                ],
-            }
-        )
-        for i in range(count)
-    ]
+    rng, made = np.random.default_rng(4), []
+
+    def drawn() -> list[float]:
+        return rng.uniform(-2.0, 2.0, 3).tolist()
+
+    for i in range(count):
+        changes = {
+            "mission.seed": i,
+            "plant.mass_scale": 1.0 + 0.02 * i,
+            "wind.velocity": drawn(),
+            "wind.turbulence": 1.0 + i,
+            "wind.gusts": [{"velocity": drawn(), "start": 1.0 + j, "rise": 0.3} for j in range(i % 3)],
+            "walls": [{"start": [0.5 - 0.02 * j, -3.0], "end": [0.4, 3.0]} for j in range(1 + i % 3)],
+            "faults": [{"quadrotor": 1 + i % 2, "rotor": 1 + i % 4, "time": 0.5 * i, "efficiency": 0.1 * i}],
+        }
+        push = {"sigma": 0.2, "point": [0.0, 0.5, 0.0]}
+        changes["pushes"] = [{"force": drawn(), "time": 1.0 + 0.4 * j} | push for j in range(1 + i % 4)]
+        made.append(storm(changes))
+    return made

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import base64
 import json
-import os
-import shutil
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-import pytest
 
 from tandemlift.core.types import Array
+from tools import need
 
 HERE = Path(__file__).parent
 CALLER = HERE.parents[1] / "examples" / "fly_module.js"
@@ -42,22 +40,13 @@ class WasmFlight(NamedTuple):
     log: Array
 
 
-def node() -> str:
-    """The command of Node.js; the test is skipped without it, unless everything is required."""
-    found = shutil.which("node")
-    if found is None:
-        if os.environ.get("TANDEMLIFT_REQUIRE_ALL"):
-            pytest.fail("Node.js is missing")
-        pytest.skip("needs Node.js")
-    return found
-
-
 def wasm_flights(folder: Path, name: str, jobs: Jobs) -> list[WasmFlight]:
     """Fly jobs (`numbers` by key, `steps`, `every`) of the module `name` of a folder in Node.js."""
     columns = _manifest(folder, name)["sizes"]["sample"]
     (folder / "jobs.json").write_text(json.dumps(jobs))
     files = [folder / f"{name}.wasm", folder / f"{name}.json", folder / "jobs.json", folder / "logs"]
-    command = [node(), str(HERE / "wasm_flight.mjs"), *map(str, files)]
+    need("node")
+    command = ["node", str(HERE / "wasm_flight.mjs"), *map(str, files)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
     if done.returncode:
         raise RuntimeError(done.stderr)

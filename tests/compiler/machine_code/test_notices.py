@@ -1,6 +1,5 @@
 """What is told of compiling: only what was compiled, in lines of measured times."""
 
-import re
 import threading
 
 import pytest
@@ -79,9 +78,3 @@ def test_what_takes_long_is_told_of_before_its_end(monkeypatch, capsys):
         assert said.wait(30.0)
         assert check_lines(capsys) == ["Compiling for this machine …"]
         publish(LOOP)
-
-
-def test_nobody_is_told_who_does_not_watch(capsys):
-    publish(None)
-    publish(LOOP)
-    assert not re.search("ompil", "".join(check_lines(capsys)))

@@ -13,7 +13,7 @@ import pytest
 from tandemlift.compiler.machine_code.functions import compiled as machine_code
 from tandemlift.core import algebra
 
-COUNT = 4000
+COUNT = 1000
 
 
 def check_compiled(name: str, arguments: int = 1) -> Callable[..., np.ndarray]:
@@ -108,15 +108,11 @@ def test_power_errs_by_its_exponent_times_the_logarithm(f):
     assert np.all(errors <= (2.0 + p * np.abs(np.log(x))) * 2.0**-52)
 
 
-@pytest.mark.parametrize("name", ["tanh", "sin"])
-def test_odd_functions_are_odd_to_the_last_bit(f, name):
-    x = np.concatenate([log_uniform(np.random.default_rng(4), 1e-300, 1e5), [0.0, 1e-320]])
-    assert np.array_equal(f[name](-x), -f[name](x))
-
-
-def test_the_cosine_is_even_and_the_angle_odd_in_y_to_the_last_bit(f):
-    rng = np.random.default_rng(5)
+def test_functions_that_are_odd_or_even_are_so_to_the_last_bit(f):
+    rng = np.random.default_rng(4)
     x, y = log_uniform(rng, 1e-300, 1e5), log_uniform(rng, 1e-100, 1e100)
+    for name in ("tanh", "sin"):
+        assert np.array_equal(f[name](-x), -f[name](x))
     assert np.array_equal(f["cos"](-x), f["cos"](x))
     assert np.array_equal(f["atan2"](-y, x), -f["atan2"](y, x))
 
@@ -132,10 +128,10 @@ def test_functions_at_zero_of_either_sign(f):
     assert np.all(f["power"](zeros, [2.0, 2.0]) < 4e-308)
 
 
-@pytest.mark.parametrize("name", ["tanh", "sin"])
-def test_the_slope_at_zero_is_one(f, name):
-    tiny = np.array([1e-300, 1e-100, 1e-10])
-    assert np.array_equal(f[name](tiny), tiny)
+def test_the_slope_at_zero_is_one(f):
+    tiny = np.array([1e-320, 1e-300, 1e-100, 1e-10])
+    for name in ("tanh", "sin"):
+        assert np.array_equal(f[name](tiny), tiny)
 
 
 def test_the_exponential_is_held_at_both_ends_and_overflows_nowhere(f):

@@ -26,17 +26,10 @@ LEVEL = np.eye(1, 16, 6)[0]
 
 WRONG = {  # what stands in the law, and why it is refused
     "a branch": ("if e.x > 0.0: e = e * 2.0", f"branches on data: {TWO_WAYS}"),
-    "a choice in an expression": ("e = e * (2.0 if e.x > 0.0 else 1.0)", f"branches on data: {TWO_WAYS}"),
-    "a loop until something holds": ("while e.x * 0.0 != 0.0: break", f"branches on data: {TWO_WAYS}"),
-    "the smaller by min": ("e = e * min(e.x, 1.0)", f"branches on data: {TWO_WAYS}"),
     "both of two": ("e = e * (e.x > 0.0 and e.y > 0.0)", f"branches on data: {TWO_WAYS}"),
-    "a chain of comparisons": ("e = e * (0.0 < e.x < 1.0)", f"branches on data: {TWO_WAYS}"),
-    "an assertion": ("assert e.x < 1e9", f"branches on data: {TWO_WAYS}"),
     "a plain number": ("e = e * float(e.x)", NO_NUMBER),
-    "a function of math": ("import math; e = e * math.sin(e.x)", NO_NUMBER),
     "a helper that makes plain numbers": ("import tandemlift.core.types as o; e = e * o.flat(e)[0]", NO_NUMBER),
     "a power": ("e = e * e.x**2", "takes a power by **: write a product, or power(x, p) of tandemlift.core.algebra"),
-    "a power of a number": ("e = e * 2.0**e.x", "takes a power by **: write a product, or power(x, p) of tandemlift"),
     "a number taken apart": ("e = e * (sum(e.x) if hasattr(e.x, 'node') else 1.0)", "takes a number apart as if it"),
     "bits of a number": ("e = e * ((e.x & e.y) if hasattr(e.x, 'node') else 1.0)", "joins a number and a number bit"),
     "a remainder": ("e = e * (e.x % 2.0)", f"{FAILS}unsupported operand"),
@@ -70,17 +63,17 @@ def test_a_law_that_cannot_be_traced_is_refused_with_file_line_and_the_ways_out(
     line, why = wrong
     path = own(line)
     mission = tl.load_mission("hover", {"mission.duration": 0.1}, controller=load_controller(path))
-    for run in (lambda: tl.fly(mission), lambda: tl.fly_many([mission] * 2)):
-        said = refusal(run)
-        assert said.startswith(f"{path}, line {LINE}: my_pd() {why}")
-        assert said.endswith("; or register the controller with compiled=False")
-        assert "\n" not in said
+    said = refusal(lambda: tl.fly(mission))
+    assert said.startswith(f"{path}, line {LINE}: my_pd() {why}")
+    assert said.endswith("; or register the controller with compiled=False")
+    assert "\n" not in said
 
 
-def test_so_it_is_by_the_pilot_as_an_object(own):
+def test_so_it_is_in_many_flights_and_by_the_pilot_as_an_object(own):
     path = own(WRONG["a branch"][0])
-    pilot = tl.Pilot(tl.load_mission("hover", controller=load_controller(path)))
-    assert refusal(lambda: pilot.step(LEVEL)).startswith(f"{path}, line {LINE}: my_pd() branches on data")
+    mission = tl.load_mission("hover", {"mission.duration": 0.1}, controller=load_controller(path))
+    for run in (lambda: tl.fly_many([mission] * 2), lambda: tl.Pilot(mission).step(LEVEL)):
+        assert refusal(run).startswith(f"{path}, line {LINE}: my_pd() branches on data")
 
 
 def test_what_the_guide_says_of_it_is_real(own):
@@ -115,14 +108,13 @@ def test_a_memory_of_another_layout_is_refused_even_if_the_law_cannot_be_tried(o
 
 def test_the_same_law_called_from_python_flies(own):
     text = LAW.replace("@control.register(Gains)", "@control.register(Gains, compiled=False)")
-    for line, _ in (WRONG["a branch"], WRONG["a plain number"], WRONG["a function of math"]):
-        mission = tl.load_mission("hover", {"mission.duration": 0.1}, controller=load_controller(own(line, text)))
-        assert tl.fly(mission).ending is None
+    lines = "\n    ".join(WRONG[kind][0] for kind in ("a branch", "a plain number", "a function of NumPy"))
+    mission = tl.load_mission("hover", {"mission.duration": 0.1}, controller=load_controller(own(lines, text)))
+    assert tl.fly(mission).ending is None
 
 
-@pytest.mark.parametrize("wrong", ["a branch", "a function of NumPy"])
-def test_the_command_line_says_so_in_one_line_and_writes_nothing(wrong, own, tmp_path):
-    path = own(WRONG[wrong][0])
+def test_the_command_line_says_so_in_one_line_and_writes_nothing(own, tmp_path):
+    path = own(WRONG["a branch"][0])
     command = [sys.executable, "-m", "tandemlift", "run", "hover", "--controller", "my_pd.py", "--out", "deep/er"]
     done = completed(command, capture_output=True, text=True, cwd=tmp_path)
     assert done.returncode == 2
@@ -130,7 +122,7 @@ def test_the_command_line_says_so_in_one_line_and_writes_nothing(wrong, own, tmp
     lines = [line for line in done.stderr.splitlines() if line.startswith("error: ")]
     assert len(lines) == 1
     assert "Traceback" not in done.stderr
-    assert lines[0].startswith(f"error: {path}, line {LINE}: my_pd() {WRONG[wrong][1]}")
+    assert lines[0].startswith(f"error: {path}, line {LINE}: my_pd() {WRONG['a branch'][1]}")
     assert lines[0].endswith("or register the controller with compiled=False")
     assert [p.name for p in tmp_path.iterdir()] == ["my_pd.py"]
 

@@ -49,8 +49,7 @@ def law_of_sets(m: Mixed, k: Any) -> Any:
     return m.number + total(e), Vec3(f, turned.z, f[::-1] if hasattr(f, "rolled") else set_of(f[::-1])), d
 
 
-@pytest.mark.parametrize("lanes", [1, 8])
-@pytest.mark.parametrize("count", [4, 8, 12, 20, 36, 256])
+@pytest.mark.parametrize(("count", "lanes"), [(4, 1), (20, 8), (36, 1)])
 def test_a_loop_over_a_set_gives_the_bits_of_the_law_written_out(count, lanes):
     one = each(count)(*[0.0] * count)
     like = Mixed(0.0, one, Vec3(one, one, one))
@@ -104,9 +103,9 @@ def same(a, b):
 
 
 # Each compiles two loops for seconds: these have, together, every part that is mapped over quadrotors.
-@pytest.mark.parametrize(("mission", "count"), [("iris", 8), ("paper", 6), ("gusts", 6), ("zigzag", 5)])
+@pytest.mark.parametrize(("mission", "count"), [("iris", 8), ("gusts", 6), ("zigzag", 5)])
 def test_many_quadrotors_fly_alike_in_loops_and_written_out(mission, count, monkeypatch, tmp_path):
-    missions = fleet(mission, count, **{"mission.duration": 6.0})
+    missions = fleet(mission, count, **{"mission.duration": 4.0})
     together, alone = tl.fly_many(missions), [tl.fly(missions[i]) for i in (0, 7)]
     assert same(alone[0], together[0])
     assert same(alone[1], together[7])

@@ -13,7 +13,7 @@ from tandemlift.engines.compiled import advance, start_plant, start_state
 from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.parts.contact.feet import floor, standing_height, start_foot_grip
 from tandemlift.parts.contact.walls import walls
-from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PerfectReadings, resultant
+from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, resultant
 from tandemlift.parts.mechanics.push import CentralPush, PointPush, PushSamples
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
@@ -54,11 +54,6 @@ def numbers(value):
     return np.array([x for part in value for x in numbers(part)] if isinstance(value, tuple) else [value], dtype=float)
 
 
-def wrench_of(vehicle, thrust, moment=NONE):
-    """Thrusts [N] of all rotors that make a wrench."""
-    return np.linalg.lstsq(vehicle.effect, np.array([thrust, *moment]), rcond=None)[0]
-
-
 def mass_matrix(body):
     """MuJoCo's (6 × 6) at level attitude."""
     M = np.zeros((6, 6))
@@ -67,7 +62,7 @@ def mass_matrix(body):
     return M
 
 
-@pytest.mark.parametrize("count", [1, 2, 3, 4])
+@pytest.mark.parametrize("count", [1, 3])
 def test_mass_centre_of_mass_and_inertia_are_the_vehicles(count):
     mission, vehicle = mission_of(count)
     body = MuJoCoBody(mission, vehicle)
@@ -85,24 +80,6 @@ def test_the_true_body_has_the_scaled_mass_and_inertia_whatever_is_left_for_the_
     np.testing.assert_allclose(M[:3, :3], mass * np.eye(3), atol=1e-12)
     np.testing.assert_allclose(M[3:, 3:], vehicle.real_inertia(mission.plant) - mass * off @ off, atol=1e-12)
     np.testing.assert_allclose(M[:3, 3:], -mass * off, atol=1e-12)
-
-
-@pytest.mark.parametrize("count", [2, 3, 4])
-def test_a_vehicle_in_hover_stays_there(count):
-    mission, vehicle = mission_of(count)
-    body = MuJoCoBody(mission, vehicle)
-    thrusts = wrench_of(vehicle, vehicle.weight)
-    for _ in range(2000):
-        body.advance(thrusts, CALM, NONE, NONE)
-    np.testing.assert_allclose(body.state, [0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0], atol=1e-10)
-
-
-def test_a_lone_quadrotor_over_its_payload_hovers_too():
-    mission, vehicle = mission_of(1, {"vehicle.quadrotors.0.position": [0.0, 0.0, 0.2]})
-    body = MuJoCoBody(mission, vehicle)
-    for _ in range(1000):
-        body.advance(np.full(4, vehicle.weight / 4.0), CALM, NONE, NONE)
-    np.testing.assert_allclose(body.state[:6], 0.0, atol=1e-10)
 
 
 def excited(mission, vehicle, seconds):
@@ -126,13 +103,13 @@ def excited(mission, vehicle, seconds):
         yield state, moved.readings, body
 
 
-@pytest.mark.parametrize("changes", [{}, DIFFERENT, TURNED], ids=["as known", "as it really is", "turned"])
+@pytest.mark.parametrize("changes", [DIFFERENT, TURNED], ids=["as it really is", "turned"])
 def test_an_excited_vehicle_moves_and_feels_as_in_the_compiled_engine(changes):
     start = {"initial.euler": [0.2, -0.1, 0.4], "initial.velocity": [1.0, 0.5, -0.3], "initial.rates": [1.0, -2.0, 0.5]}
     shoved = {"disturbance.force": [0.3, -0.2, 0.1], "disturbance.moment": [0.02, 0.04, -0.01]}
     mission, vehicle = mission_of(3, start | shoved | changes)
     apart, fastest = np.zeros(2), 0.0
-    for state, felt, body in excited(mission, vehicle, 2.0):
+    for state, felt, body in excited(mission, vehicle, 1.5):
         np.testing.assert_allclose(body.readings, numbers(felt), atol=1e-9)
         difference = np.abs(body.state - numbers(state))
         apart = np.maximum(apart, [difference[:3].max(), 2.0 * difference[6:10].max()])
@@ -270,7 +247,7 @@ def test_a_vehicle_pressed_against_a_wall_yields_by_the_force_over_the_stiffness
     vehicle = Vehicle.from_settings(mission.vehicle)
     J, press = vehicle.inertia, walls(vehicle, vehicle.mass, DT, friction=0.0, stiffness=2000.0)
     body, allocation = MuJoCoBody(mission, vehicle, walls=press), vehicle.allocation()
-    for _ in range(8000):
+    for _ in range(6000):
         q, w = body.state[6:10], body.state[10:]
         lift = (vehicle.weight - 200.0 * body.state[2] - 100.0 * body.state[5]) / (1.0 - 2.0 * (q[1] ** 2 + q[2] ** 2))
         moment = -np.diag(J) * (400.0 * q[1:] + 30.0 * w)
@@ -282,23 +259,14 @@ def test_a_vehicle_pressed_against_a_wall_yields_by_the_force_over_the_stiffness
     assert np.array(force) @ body.readings[-3:] < 0.0  # the wall pushes back
 
 
-@pytest.mark.parametrize("command", [np.nan, np.inf, -1e12])
-def test_a_command_that_is_none_ends_the_motion_without_a_word(command, tmp_path, monkeypatch, capfd):
+def test_a_command_that_is_none_ends_the_motion_without_a_word(tmp_path, monkeypatch, capfd):
     monkeypatch.chdir(tmp_path)
-    body = MuJoCoBody(*mission_of(2))
-    body.advance(np.full(8, command), CALM, NONE, NONE)
-    assert np.isnan(body.state).all()
-    assert np.isnan(body.readings).all()
+    for command in (np.nan, np.inf, -1e12):
+        body = MuJoCoBody(*mission_of(2))
+        body.advance(np.full(8, command), CALM, NONE, NONE)
+        assert np.isnan([*body.state, *body.readings]).all()
     assert not list(tmp_path.iterdir())  # MuJoCo would write a log
     assert capfd.readouterr() == ("", "")
-
-
-def test_felt_has_the_layout_of_the_law():
-    mission, vehicle = mission_of(2)
-    sets = Vec3(each(2)(0.0, 0.0), each(2)(0.0, 0.0), each(2)(0.0, 0.0))
-    assert (
-        MuJoCoBody(mission, vehicle).readings.size == numbers(PerfectReadings(vec3(NONE), sets, sets, vec3(NONE))).size
-    )
 
 
 def test_without_mujoco_one_sentence_says_how_to_get_it(monkeypatch):

@@ -4,13 +4,12 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from modelled import MISSIONS, links_of, loaded, pose, shapes_of
+from modelled import BUILT_IN, MISSIONS, links_of, loaded, pose, shapes_of
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
 from tandemlift.apps.export.write import export
 from tandemlift.engines.models.scene import floor_from
-from tandemlift.missions import built_in
 from tandemlift.parts.contact.hull import HALF_THICKNESS
 from tandemlift.parts.contact.spheres import SPARED
 
@@ -67,17 +66,20 @@ def test_the_vehicle_of_a_world_starts_as_its_mission(name, world):
     np.testing.assert_allclose(rotation.as_matrix(), expected.as_matrix(), atol=1e-15)
 
 
-@pytest.mark.parametrize("pitch", [1.48, -1.48, 1.0, -0.3])
-def test_a_start_at_any_pitch_is_the_missions(pitch, reader, tmp_path):
-    mission = tl.load_mission("paper", {"initial.euler": [0.3, pitch, -1.0]})
-    lines = reader(export(mission, tmp_path / "steep.sdf"))
-    (words,) = [words for words in lines if words[:2] == ["model", "tandemlift"]]
-    expected = Rotation.from_euler("ZXY", [-1.0, 0.3, pitch])
-    np.testing.assert_allclose(pose(words[3:])[1].as_matrix(), expected.as_matrix(), atol=1e-15)
+def test_a_start_at_any_pitch_is_the_missions(reader, tmp_path):
+    for pitch in (1.48, -1.48, 1.0):
+        mission = tl.load_mission("paper", {"initial.euler": [0.3, pitch, -1.0]})
+        lines = reader(export(mission, tmp_path / "steep.sdf"))
+        (words,) = [words for words in lines if words[:2] == ["model", "tandemlift"]]
+        expected = Rotation.from_euler("ZXY", [-1.0, 0.3, pitch])
+        np.testing.assert_allclose(pose(words[3:])[1].as_matrix(), expected.as_matrix(), atol=1e-15)
 
 
-def test_physics_of_a_world_are_gazebos_at_the_missions_step(world):
-    assert world("zigzag").lines[0] == ["world", "default", "ode", "0.001", "0", "0", "-9.8100000000000005"]
+def test_physics_of_a_world_are_gazebos_at_the_missions_step_and_it_needs_no_file_of_its_own(world):
+    found = world("zigzag")
+    assert found.lines[0] == ["world", "default", "ode", "0.001", "0", "0", "-9.8100000000000005"]
+    tags = {element.tag for element in ElementTree.parse(found.path).iter()}
+    assert not tags & {"mesh", "uri", "include", "script", "plugin"}
 
 
 @pytest.mark.parametrize("name", [name for name in MISSIONS if loaded(name)[0].all_walls])
@@ -154,18 +156,7 @@ def test_every_shape_touches_either_the_floor_or_walls(world):
     assert masks == {kind: {1} for kind in on_floor} | {kind: {2} for kind in on_walls}
 
 
-def test_a_world_shows_every_rotor_where_it_is_and_needs_no_file_of_its_own(world):
-    found = world("unlike")
-    for i, q in enumerate(found.vehicle.quadrotors, 1):
-        looks = shapes_of(found.lines, f"quadrotor_{i}", "visual")
-        rotors = {name: look for name, look in looks.items() if name.startswith("rotor")}
-        np.testing.assert_allclose([place[:2] for _, place, _ in rotors.values()], q.rotors, atol=1e-6)
-        assert {size[:2] for size, _, _ in rotors.values()} == {("cylinder", q.rotor_radius)}
-    tags = {element.tag for element in ElementTree.parse(found.path).iter()}
-    assert not tags & {"mesh", "uri", "include", "script", "plugin"}
-
-
-@pytest.mark.parametrize("name", ["unlike", *built_in()])
+@pytest.mark.parametrize("name", ["unlike", *BUILT_IN])
 def test_both_models_show_the_same_parts_at_the_same_places(name, world, mujoco, model_of):
     found, model = world(name), model_of(loaded(name, {"initial.position": 0.0, "initial.euler": 0.0})[0])
     data, shown = mujoco.MjData(model), 0

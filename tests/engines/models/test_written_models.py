@@ -37,10 +37,9 @@ def test_a_true_vehicle_that_leaves_no_payload_is_refused_by_its_keys(ending, mu
 
 def test_endings_and_ports_that_do_not_fit_are_refused(tmp_path):
     mission = tl.load_mission("paper")
-    for name in ("world.obj", "world", "world.sdf.gz", ".sdf"):
+    for name in ("world", "world.sdf.gz", ".sdf"):
         assert ".sdf (Gazebo world), .xml (MuJoCo model) or .urdf" in check_refused(mission, tmp_path / name)
     assert "'paper' is no flight" in check_refused(mission, tmp_path / "paper.csv")
-    assert "only a world, .sdf, has a plugin" in check_refused(mission, tmp_path / "paper.xml", plugin=7000)
     for port in (0, -1, 65536):
         assert f"plugin = {port}: must be a port" in check_refused(mission, tmp_path / "paper.sdf", plugin=port)
 
@@ -78,24 +77,13 @@ def test_the_command_writes_a_mission_with_a_changed_key_and_a_plugin(run, tmp_p
     assert (tmp_path / "there" / "wide.sdf").read_bytes() == expected.read_bytes()
 
 
-def test_the_command_writes_the_mission_of_a_flight(run, tmp_path):
-    flight_of("iris").save(tmp_path / "saved" / "flight.npz")
-    assert run("export", "saved", "--out", "iris.sdf")[0] == 0
-    assert (tmp_path / "iris.sdf").read_bytes() == export(tl.load_mission("iris"), tmp_path / "b.sdf").read_bytes()
-
-
 @pytest.mark.parametrize(
     ("arguments", "piece"),
     [
         (("iris", "--out", "iris.obj"), "iris.obj: must end in .mcap"),
         (("nowhere", "--out", "x.sdf"), "nowhere"),
-        (("iris", "--out", "iris.csv", "--set", "mission.duration=5"), "--set is for a mission"),
         (("saved", "--out", "iris.sdf", "--set", "mission.duration=5"), "--set is for a mission"),
-        (("iris", "--out", "iris.sdf", "--set", "mission.duration"), "--set mission.duration: must be KEY=VALUE"),
-        (("iris", "--out", "iris.sdf", "--set", "mission.lenght=5"), "mission.lenght"),
-        (("iris", "--out", "iris.sdf", "--plugin", "0"), "plugin = 0: must be a port"),
         (("iris", "--out", "iris.xml", "--plugin", "7000"), "only a world, .sdf, has a plugin"),
-        (("saved", "--out", "iris.csv", "--plugin", "7000"), "only a world, .sdf, has a plugin"),
         (("iris", "--out", "iris.sdf", "--plugin", "here"), "plugin = here: must be a port"),
     ],
 )
