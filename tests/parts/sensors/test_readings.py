@@ -6,13 +6,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
-from law_values import array, flat, random_attitude, random_state, random_vec3, rebuilt, seeds
+from law_values import array, flat, random_attitude, random_state, random_vec3, rebuilt
 from perceived import sensors
 from scipy import stats
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.vector import ZERO, Quat, Vec3, each, spread, vec3
+from tandemlift.core.vector import ZERO, Quat, Vec3, spread, vec3
 from tandemlift.missions import load_mission
 from tandemlift.parts.mechanics.loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
@@ -29,7 +28,6 @@ from tandemlift.parts.sensors.readings import (
 from tandemlift.parts.sensors.start_sensors import sensors_from
 
 STEP = 1e-3
-SETS = Vec3(*[each(2)(0.0, 0.0)] * 3)
 HISS = zero_noise(sensors(2, STEP))
 AT_REST = State(Vec3(1.0, 2.0, 3.0), ZERO, Quat(1.0, 0.0, 0.0, 0.0), Vec3(0.1, 0.2, -0.3))
 FELT = PerfectReadings(Vec3(0.1, -0.2, 9.8), spread([[0.1, 0.2, 2.4], [0.3, -0.1, 2.5]]), spread(np.eye(3)[:2]), ZERO)
@@ -68,17 +66,7 @@ def flown(k: Sensors, steps: int, seed: int, flights: int, unit_of: Any = lambda
     return out
 
 
-@given(seeds)
-def test_perfect_sensors_read_every_bit_of_what_is_felt(seed):
-    rng = np.random.default_rng(seed)
-    k, s, felt, believed = sensors(2, STEP), random_state(rng), random_felt(rng), random_attitude(rng)
-    memory = start_sensing(k, AT_REST, FELT, AT_REST.attitude)
-    readings, _ = sense(k, memory, s, felt, believed, hiss(rng))
-    assert readings.imu == (felt.specific_force, s.rates, felt.joint_force, felt.joint_torque, believed, 1.0)
-    assert readings.motion == (s.position, s.velocity, s.attitude, 1.0)
-
-
-@pytest.mark.parametrize(("imu_period", "motion_period"), [(1, 1), (1, 10), (4, 10), (3, 7)])
+@pytest.mark.parametrize(("imu_period", "motion_period"), [(1, 10), (3, 7)])
 def test_samples_come_once_a_period_from_the_first_step_on_and_stand_between(imu_period, motion_period):
     k = sensors(2, STEP, imu_period=imu_period, motion_period=motion_period)
     rng, memory = np.random.default_rng(0), start_sensing(k, AT_REST, FELT, AT_REST.attitude)
@@ -115,7 +103,7 @@ def every_meter(readings: Readings) -> list[Any]:
 
 def test_the_drift_grows_as_a_random_walk_of_the_time():
     """Var = σ² t at every sample, on top of what one sample's noise has."""
-    flights, samples = 3000, 200
+    flights, samples = 1000, 100
     found = np.array(flown(NOISY, 2 * samples, 1, flights, every_meter))[::2]
     imu = NOISY.imu.channels
     meters = (imu.joint_force, imu.joint_torque, imu.specific_force, imu.rates)

@@ -1,7 +1,6 @@
 """Watchdogs against streams of samples whose faults are known, and against what NumPy counts of them."""
 
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,15 +13,12 @@ from tandemlift.parts.sensors.health import (
     FROZEN,
     NO_NUMBER,
     OUT_OF_RANGE,
-    WELL,
     AttitudeLimits,
     JointLimits,
     PerSensor,
-    SampleChecks,
     SensorHealth,
     VectorLimits,
     check_sample,
-    health_after,
 )
 from tandemlift.parts.sensors.readings import ImuReading, MotionReading, Readings
 from tandemlift.parts.sensors.sensor_faults import SensorFaultState, apply_faults, sensor_faults_from
@@ -33,7 +29,6 @@ from tandemlift.parts.sensors.watchdog import (
     Watchdog,
     any_invalid,
     start_watchdog,
-    substitute_velocity,
     watchdog_from,
     watchdog_step,
 )
@@ -60,14 +55,7 @@ DOG = Watchdog(
     motion_rate=1.0 / DT,
 )
 NO_FAULTS = sensor_faults_from([], 2, [], DT)
-SIZES = {
-    "joints": 200.0,
-    "accelerometer": 100.0,
-    "gyroscope": 20.0,
-    "position": 200.0,
-    "velocity": 30.0,
-    "attitude": 1.0,
-}
+SIZES = PerSensor(joints=200.0, accelerometer=100.0, gyroscope=20.0, position=200.0, velocity=30.0, attitude=1.0)
 
 
 def stream(seconds, rates=ZERO, velocity=ZERO, seed=1):
@@ -121,7 +109,7 @@ def found_at(reports, name):
 
 
 def test_sound_sensors_with_noise_alarm_nobody_and_pass_as_they_are():
-    samples = list(stream(20.0))
+    samples = list(stream(8.0))
     for sample, (clean, report) in zip(samples, watched(samples), strict=True):
         assert clean == sample
         assert report == (0.0,) * 11 + (1.0,)
@@ -132,7 +120,7 @@ def test_sound_sensors_with_noise_alarm_nobody_and_pass_as_they_are():
     ("kind", "code", "late"), [("frozen", FROZEN, 0.125), ("nan", NO_NUMBER, 0.05), ("range", OUT_OF_RANGE, 0.05)]
 )
 def test_each_fault_of_each_sensor_is_found_in_time_and_no_other_and_never_gets_through(sensor, kind, code, late):
-    clean, reports = zip(*watched(stream(2.0), failing(sensor, kind, SIZES[sensor])), strict=True)
+    clean, reports = zip(*watched(stream(1.3), failing(sensor, kind, getattr(SIZES, sensor))), strict=True)
     at, what = found_at(reports, sensor)
     assert what == code
     assert at == pytest.approx(1.0 + late, abs=2 * DT)
@@ -149,18 +137,6 @@ def test_a_device_that_sends_nothing_is_stale_after_its_time(device):
     reports = [r for _, r in watched(stream(2.0), faults)]
     assert found_at(reports, device)[0] == pytest.approx(1.1, abs=2 * DT)
     assert getattr(reports[-1], device) == 0.0  # it has come back
-
-
-def test_the_count_of_samples_alike_is_that_of_numpy():
-    values = np.random.default_rng(0).integers(0, 3, 500)
-    health, counted, run = SensorHealth(0.0, 0.0, 0.0), [], 0
-    for i, value in enumerate(values):
-        identical = float(i > 0 and value == values[i - 1])
-        health = health_after(health, SampleChecks(0.0, 0.0, identical), 1.0, DT)
-        counted.append(health.identical)
-    changes = np.flatnonzero(np.diff(values, prepend=-1))
-    run = np.arange(500) - np.repeat(changes, np.diff([*changes, 500]))
-    assert counted == run.tolist()
 
 
 @pytest.mark.parametrize(
@@ -219,14 +195,6 @@ def test_a_lost_accelerometer_reads_as_if_nothing_accelerated():
     assert clean.imu.specific_force == pytest.approx((0.1, 9.81 * math.sin(0.3), 9.81 * math.cos(0.3)))
 
 
-def test_sensors_that_are_sound_give_what_they_read_to_the_last_bit():
-    spoiling = None
-    for sample in stream(0.5):
-        spoiling = spoiling or SensorFaultState(sample, 0.0)
-        given, spoiling = apply_faults(NO_FAULTS, spoiling, sample)
-        assert given == sample
-
-
 def test_a_fault_ends_when_it_is_over():
     bias = SensorFaultTable(sensor="position", kind="bias", time=10 * DT, until=20 * DT, size=(1.0, 2.0, 3.0))
     faults = sensor_faults_from([bias], 2, [], DT)
@@ -275,24 +243,3 @@ def test_one_bad_number_of_one_joint_is_found_along_any_axis(axis, quantity):
     assert check_sample(limits, sample(0.8), sound) == (0.0, 0.0, 1.0)  # the other joint stands still
     assert check_sample(limits, sample(float("nan")), sound)[:2] == (1.0, 1.0)
     assert check_sample(limits, sample(-10.5), sound)[:2] == (0.0, 1.0)
-
-
-BAD, HEALTHY = VALID._replace(failure=NO_NUMBER), PerSensor(*[VALID] * 6)
-PLAIN = SimpleNamespace(motion_rate=100.0, velocity_gain=0.25)
-BEFORE = SimpleNamespace(
-    velocity=Vec3(1.0, 2.0, 3.0), valid=SimpleNamespace(motion=SimpleNamespace(position=Vec3(0.5, 0.5, 0.5)))
-)
-SAMPLE = SimpleNamespace(position=Vec3(0.53, 0.5, 0.46), velocity=Vec3(9.0, 9.0, 9.0), fresh=1.0)
-
-
-@pytest.mark.parametrize("lost", [{"healths": HEALTHY._replace(velocity=BAD)}, {"report": WELL._replace(velocity=2.0)}])
-def test_the_substituted_velocity_follows_the_derivative_of_the_position_by_the_gain_while_there_is_a_new_one(lost):
-    def found(sample=SAMPLE, healths=HEALTHY, report=WELL):
-        return substitute_velocity(PLAIN, BEFORE, sample, healths, report)
-
-    assert found() == SAMPLE.velocity
-    assert found(**lost) == pytest.approx([1.0 + 0.25 * (3.0 - 1.0), 2.0 * 0.75, 3.0 + 0.25 * (-4.0 - 3.0)])
-    held = SimpleNamespace(**{**vars(SAMPLE), "fresh": 0.0})
-    assert found(held, **lost) == BEFORE.velocity
-    no_position = lost.get("healths", HEALTHY)._replace(position=BAD)
-    assert found(**{**lost, "healths": no_position}) == BEFORE.velocity
