@@ -17,13 +17,30 @@ from tandemlift.parts.controllers.geometric import (
     heading_vector,
     zxy_angles,
 )
+from tandemlift.parts.controllers.lqr import tilt_axes
 from tandemlift.parts.controllers.pid import PIDGains, PIDStageState, back_calculated, pid_step
 from tandemlift.parts.controllers.smc import linear_surface, switched_acceleration
 from tandemlift.parts.controllers.super_twisting import super_twisting_step, twisting_gains
 from tandemlift.parts.mechanics.low_pass import LowPassState, low_pass
-from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion
 
 STEP = 0.001
+
+# LQR
+
+
+@given(seeds)
+def test_tilt_axes_tilt_the_thrust_along_a_direction_of_the_world(seed):
+    """A small tilt about these axes, at any heading, leans the vertical towards the direction, by SciPy's rotations."""
+    rng = np.random.default_rng(seed)
+    direction, yaw, small = rng.uniform(-1.0, 1.0, 3), rng.uniform(-np.pi, np.pi), 1e-5
+    heading = Rotation.from_euler("z", yaw)
+    e = euler_from_quaternion(Quat(*heading.as_quat(scalar_first=True).tolist()))
+    roll, pitch, turned = tilt_axes(e, vec3(direction))
+    leaning = (heading * Rotation.from_rotvec([small * roll, small * pitch, 0.0])).apply([0.0, 0.0, 1.0])
+    assert turned == 0.0
+    assert leaning[:2] / small == pytest.approx(direction[:2], abs=1e-4)
+
 
 # Geometric
 

@@ -12,6 +12,7 @@ from tandemlift.parts.estimation.contact_detection import (
     AWAY,
     QUIET_TIME,
     axis_of,
+    begun,
     is_over,
     radius_of,
     start_contact,
@@ -147,6 +148,42 @@ def test_means_that_begin_anew_are_the_present_forces_and_the_steady_one_stays()
 
 TURNED = Rotation.from_euler("z", 0.7)
 STATE = State(Vec3(1.0, 2.0, 3.0), ZERO, Quat(*TURNED.as_quat(scalar_first=True).tolist()), ZERO)
+
+
+def in_world(*v):
+    return TURNED.apply(v)
+
+
+@pytest.mark.parametrize(("part", "center", "radius"), [(1.0, (0.1, 1.0, 0.2), 0.3), (2.0, (-0.1, -1.0, 0.3), 0.4)])
+def test_a_guard_that_touches_is_told_with_force_normal_and_point(part, center, radius):
+    d = seen(guard=FORCE, other=-0.5 * FORCE)
+    mine = FORCE if part == 1.0 else -0.5 * FORCE
+    slope = np.array([200.0, 100.0])
+    x, y = (LowPassState(PAIR(9.0, 9.0), PAIR(*np.where([part == 1.0, part == 2.0], s, 7.0).tolist())) for s in slope)
+    m = STEEPLY._replace(outside=STEEPLY.outside._replace(x=x, y=y))
+    c = begun(DETECTOR, m, d, part, NOWHERE, UNMATCHED, STATE, 0.4)
+    force, normal = in_world(*mine, 0.0), in_world(*mine, 0.0) / np.linalg.norm(mine)
+    assert c.part == part
+    assert c.force == pytest.approx(force)
+    assert c.normal == pytest.approx(normal)
+    assert c.point == pytest.approx(np.array(STATE.position) + in_world(*center) - normal * radius)
+    assert (c.along, c.on_map) == (pytest.approx(center[1] - 0.05), 0.0)
+    assert c.rise == pytest.approx(np.linalg.norm(mine) / np.linalg.norm(slope))
+    known = NOWHERE._replace(matched=PAIR(1.0, 1.0), offset=Vec3(PAIR(0.0, 0.0), PAIR(-0.3, -0.3), PAIR(0.2, 0.2)))
+    mapped = begun(DETECTOR, m, d, part, known, UNMATCHED, STATE, 0.4)
+    assert (mapped.normal, mapped.on_map) == (Vec3(0.0, -1.0, 0.0), 1.0)
+
+
+@pytest.mark.parametrize("beam", [UNMATCHED, BeamMatch(1.0, -0.3, Vec3(0.0, 0.05, 0.0))])
+def test_a_beam_that_touches_is_told_where_the_push_acts_or_where_the_map_has_a_wall(beam):
+    d, along = seen(push=FORCE), -0.3 if beam.matched else 0.4
+    m = STEEPLY._replace(push=STEEPLY.push._replace(x=LowPassState(9.0, 30.0), y=LowPassState(9.0, 40.0)))
+    c = begun(DETECTOR, m, d, BEAM, NOWHERE, beam, STATE, 0.4)
+    normal = np.array([0.0, 1.0, 0.0]) if beam.matched else in_world(*FORCE, 0.0) / 5.0
+    assert c.force == pytest.approx(in_world(*FORCE, 0.0))
+    assert c.normal == pytest.approx(normal)
+    assert c.point == pytest.approx(np.array(STATE.position) + in_world(0.0, 0.05 + along, -0.1) - normal * 0.06)
+    assert (c.along, c.on_map, c.rise) == (along, beam.matched, pytest.approx(5.0 / 50.0))
 
 
 def test_a_contact_is_over_without_force_or_once_the_part_has_moved_away_and_not_along_the_wall():

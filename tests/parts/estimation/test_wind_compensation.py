@@ -79,3 +79,12 @@ def test_the_wind_of_the_tare_is_in_the_bias_and_is_not_taken_off_twice():
     assert array(push.measured) == pytest.approx(none, abs=1e-7)
     push, _ = settled(k, memory, read(R, strong, hand), 1.0)
     assert array(push.measured) == pytest.approx(hand, abs=1e-7)
+
+
+def test_a_blow_on_a_guard_takes_off_no_more_than_a_wind_of_8_m_s_and_in_a_contact_nothing():
+    R, none = Rotation.identity(), np.zeros(3)
+    k, calm, blown = estimator(), read(R, none, none), read(R, np.array([30.0, 0.0, 0.0]), none)
+    push, memory = settled(k, start_push(k, calm), blown, 0.0)
+    assert array(push.measured) == pytest.approx([BEAM[0] * (30.0**2 - 8.0**2), 0.0, 0.0], abs=1e-7)
+    push, _ = estimate(k, memory, blown, 0.2, 0.0)
+    assert array(push.measured) == pytest.approx([BEAM[0] * 30.0**2, 0.0, 0.0], abs=1e-7)
