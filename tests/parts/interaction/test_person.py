@@ -19,10 +19,7 @@ from tandemlift.parts.interaction.passage import APART, TURNING, trailing, turni
 from tandemlift.parts.interaction.person import (
     PathFollowing,
     PathLeg,
-    PersonSettings,
     PersonState,
-    PersonView,
-    guided_point,
     hand_target,
     landing_request,
     person_step,
@@ -35,12 +32,10 @@ from tandemlift.parts.mechanics.low_pass import LowPassState
 from tandemlift.parts.mechanics.push import PointPush, PushSamples, push_moment
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.simulation.preparation.assemble import assemble
 
 DT = 0.001
 NOBODY = PointPush(ZERO, mat3([[0.0] * 3] * 3))
 NO_PUSH = PushSamples(NOBODY, NOBODY, NOBODY)
-LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
 CALM = TremorNoise(ZERO, ZERO)
 MODELS = pytest.mark.parametrize("model", ["pull", "steer", "two-hands", "hold"])
 
@@ -69,7 +64,7 @@ def shaken(rng: np.random.Generator) -> TremorNoise:
 def test_force_and_couple_never_exceed_their_bounds(model, seed):
     rng = np.random.default_rng(seed)
     person, memory, _ = company(model, max_force=3.0, max_couple=0.5, tremor=2.0, grip=0.3, start_time=0.0)
-    for k in range(30):
+    for k in range(10):
         state = random_state(rng)
         memory = memory._replace(view=person_view(person.grip, random_state(rng)))
         memory = memory._replace(place=LowPassState(vec3(rng.normal(size=3)), vec3(rng.normal(size=3))), begun=1.0)
@@ -97,17 +92,19 @@ def test_the_hand_gets_to_its_place_as_through_two_equal_lags():
 
 
 def test_tremor_has_its_size_and_nine_tenths_of_its_power_between_8_and_12_hertz():
-    k, memory, rows = tremor(0.05, DT), STILL, []
-    rng = np.random.default_rng(0)
-    for _ in range(60_000):
-        memory = tremor_step(k, memory, shaken(rng))
+    """Of ten hands at once, after the first second."""
+    k, memory, rows, rng = tremor(0.05, DT), STILL, [], np.random.default_rng(0)
+    for _ in range(7000):
+        noise = TremorNoise(*[Vec3(*rng.normal(size=(3, 10))) for _ in range(2)])
+        memory = tremor_step(k, memory, noise)
         rows.append(memory.second)
-    x = 0.05 * np.array(rows)
+    x = 0.05 * np.array(rows)[1000:]  # steps, axes, hands
     f, power = welch(x, fs=1.0 / DT, nperseg=4096, axis=0)
+    power = power.mean(axis=2)
     share = power[(f >= 8.0) & (f <= 12.0)].sum(axis=0) / power.sum(axis=0)
-    assert x.std(axis=0) == pytest.approx([0.05] * 3, rel=0.1)
+    assert x.std(axis=(0, 2)) == pytest.approx([0.05] * 3, rel=0.1)
     assert share == pytest.approx([0.9] * 3, abs=0.04)
-    assert np.abs(np.corrcoef(x.T) - np.eye(3)).max() < 0.1
+    assert np.abs(np.corrcoef(x.swapaxes(0, 1).reshape(3, -1)) - np.eye(3)).max() < 0.1
 
 
 def test_a_hand_that_holds_still_is_a_spring_and_a_damper_whatever_is_seen():
@@ -148,7 +145,7 @@ def test_the_path_is_gone_along_leg_by_leg_with_a_rest_where_it_is_asked_for():
     assert [array(leg.start)[:2].tolist() for leg in legs] == [[0.0, 0.0], [1.0, 0.0], [1.0, 2.0]]
     assert [leg.stops for leg in legs] == [0.0, 1.0, 1.0]
     since, z = {}, legs[0].end.z
-    for k in range(8000):
+    for k in range(6000):
         t = k * DT
         place = vec3([min(t, 1.0), np.clip(t - 1.0, 0.0, 2.0), z]) if t < 5.0 else Vec3(3.0, 2.0, z)
         if k % 16 == 0:
@@ -159,16 +156,6 @@ def test_the_path_is_gone_along_leg_by_leg_with_a_rest_where_it_is_asked_for():
     assert since[1.0] == pytest.approx(0.5, abs=0.02)  # a corner is taken half a metre early
     assert since[2.0] == pytest.approx(2.7 + 0.5, abs=0.02)
     assert landing_request(memory) == 1.0
-
-
-def test_two_hands_turn_the_vehicle_towards_its_heading_and_hold_it_at_the_centre():
-    person, memory, _ = company(
-        "two-hands", ({"point": [0.0, 0.0], "heading": 0.3, "dwell": 9.0},), tremor=0.0, grip=0.7
-    )
-    assert array(person.grip)[1] == 0.0
-    for k in range(2000):
-        output, memory = person_step(person, memory, NO_PUSH, at((0.0, 0.0, memory.leg.end.z)), CALM, k * DT, DT)
-    assert push_moment(output.start, LEVEL).z == pytest.approx(0.3 * person.settings.yaw_gain, abs=0.01)
 
 
 def test_what_is_seen_late_is_reckoned_ahead():
@@ -182,15 +169,10 @@ def test_what_is_seen_late_is_reckoned_ahead():
     assert np.abs(array(output.start.force)).max() < 0.02
 
 
-def test_a_mission_without_a_person_has_none():
-    model, given, tables, *_ = assemble(tl.load_mission("hover"))
-    assert model.person == model.flight_state.person == given.person == ()
-    assert len(tables.legs) == 0
-
-
 def test_two_hands_turn_the_beam_as_a_spring_and_a_damper_about_the_vertical():
     """The couple K (ψ_leg − ψ) − D ψ̇ at the predicted heading; the heading of this leg is 0."""
-    person, memory, legs = company("two-hands", ((5.0, 0.0),), tremor=0.0, max_couple=1e3)
+    person, memory, legs = company("two-hands", ((5.0, 0.0),), tremor=0.0, max_couple=1e3, grip=0.7)
+    assert person.grip.y == 0.0  # they hold it at the centre
     s, ahead = person.settings, person.arm.horizon
     assert legs[0].heading == 0.0
     for yaw, rate in ((0.1, 0.0), (-0.2, 0.4), (0.0, -0.5)):
@@ -214,10 +196,7 @@ def test_behind_a_hand_that_goes_straight_the_centre_follows_a_tractrix(grip):
     assert places.centres == pytest.approx(expected, abs=2e-3)
     body_y = np.column_stack([-np.sin(places.headings), np.cos(places.headings)])
     assert places.centres + grip * body_y == pytest.approx(grips, abs=1e-9)
-
-
-def test_a_hand_at_the_centre_leaves_the_heading_open():
-    assert trailing(np.zeros((3, 2)), 0.0, 0.0) is None
+    assert trailing(grips, 0.0, 0.0) is None  # a hand at the centre leaves the heading open
 
 
 def test_a_heading_is_kept_and_another_is_reached_the_short_way_at_a_limited_rate():
@@ -229,19 +208,10 @@ def test_a_heading_is_kept_and_another_is_reached_the_short_way_at_a_limited_rat
     assert found[-1] == pytest.approx(2.0 * np.pi - 3.0)
 
 
-VIEW = PersonView(Vec3(1.0, 2.0, 3.0), Vec3(0.1, 0.2, 0.3), Vec3(4.0, 5.0, 6.0), Vec3(0.4, 0.5, 0.6), 0.0, 0.0)
 LEG = PathLeg(ZERO, Vec3(8.0, 0.0, 0.0), *[0.0] * (len(PathLeg._fields) - 2))
 FOLLOWING = PathFollowing(**dict.fromkeys(PathFollowing._fields, 0.0))._replace(
     speed=0.5, gain=6.0, look_ahead=1.0, approach_gain=1.0
 )
-
-
-@pytest.mark.parametrize(
-    ("at_grip", "place", "velocity"), [(1.0, VIEW.grip, VIEW.grip_velocity), (0.0, VIEW.position, VIEW.velocity)]
-)
-def test_the_grip_is_guided_or_the_centre_of_mass(at_grip, place, velocity):
-    found = guided_point(PersonSettings(at_grip, 0.0, 0.0, 0.0), VIEW)
-    assert found == (place, velocity)
 
 
 def test_the_force_is_the_missing_speed_towards_a_place_ahead_on_the_leg_and_more_where_little_moves_nothing():
