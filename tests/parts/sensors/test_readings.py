@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from law_values import array, flat, random_attitude, random_state, random_vec3, rebuilt
+from law_values import array, flat, random_attitude, rebuilt
 from perceived import sensors
 from scipy import stats
 from scipy.spatial.transform import Rotation
@@ -46,11 +46,6 @@ NOISY = sensors(
 )
 
 
-def random_felt(rng: np.random.Generator) -> PerfectReadings:
-    force, torque = rng.standard_normal((2, 2, 3))
-    return PerfectReadings(random_vec3(rng), spread(force), spread(torque), ZERO)
-
-
 def hiss(rng: np.random.Generator, size: Any = None) -> SensorNoise:
     """Standard normals for a step, of one flight or of many at once."""
     shape = (27,) if size is None else (27, size)
@@ -64,26 +59,6 @@ def flown(k: Sensors, steps: int, seed: int, flights: int, unit_of: Any = lambda
         readings, memory = sense(k, memory, AT_REST, FELT, AT_REST.attitude, hiss(rng, flights))
         out.append(unit_of(readings))
     return out
-
-
-@pytest.mark.parametrize(("imu_period", "motion_period"), [(1, 10), (3, 7)])
-def test_samples_come_once_a_period_from_the_first_step_on_and_stand_between(imu_period, motion_period):
-    k = sensors(2, STEP, imu_period=imu_period, motion_period=motion_period)
-    rng, memory = np.random.default_rng(0), start_sensing(k, AT_REST, FELT, AT_REST.attitude)
-    last: Any = readings_of(memory)
-    for step in range(40):
-        s, felt, believed = random_state(rng), random_felt(rng), random_attitude(rng)
-        readings, memory = sense(k, memory, s, felt, believed, HISS)
-        if step % imu_period == 0:
-            assert readings.imu.joint_force == felt.joint_force
-            assert readings.imu[4:] == (believed, 1.0)
-        else:
-            assert readings.imu == last.imu._replace(fresh=0.0)
-        if step % motion_period == 0:
-            assert readings.motion == (s.position, s.velocity, s.attitude, 1.0)
-        else:
-            assert readings.motion == last.motion._replace(fresh=0.0)
-        last = readings
 
 
 def test_before_the_first_step_stands_a_reading_with_bias_and_without_noise():

@@ -1,6 +1,7 @@
 """Watchdogs against streams of samples whose faults are known, and against what NumPy counts of them."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from tandemlift.parts.sensors.health import (
     FROZEN,
     NO_NUMBER,
     OUT_OF_RANGE,
+    WELL,
     AttitudeLimits,
     JointLimits,
     PerSensor,
@@ -29,6 +31,7 @@ from tandemlift.parts.sensors.watchdog import (
     Watchdog,
     any_invalid,
     start_watchdog,
+    substitute_velocity,
     watchdog_from,
     watchdog_step,
 )
@@ -96,10 +99,10 @@ def numbers(value):
     return [n for part in value for n in (numbers(part) if isinstance(part, tuple) else [part])]
 
 
-def failing(sensor, kind, size=0.0, until=None):
-    """The fault of a sensor or device after 200 samples; of joints, that of the second."""
+def failing(sensor, kind, size=0.0, until=None, at=1.0):
+    """The fault of a sensor or device from a time [s] on; of joints, that of the second."""
     joint = 2 if sensor == "joints" else None
-    fault = SensorFaultTable(sensor=sensor, quadrotor=joint, kind=kind, time=1.0, until=until, size=(size, size, size))
+    fault = SensorFaultTable(sensor=sensor, quadrotor=joint, kind=kind, time=at, until=until, size=(size, size, size))
     return sensor_faults_from([fault], 2, [], DT)
 
 
@@ -120,10 +123,11 @@ def test_sound_sensors_with_noise_alarm_nobody_and_pass_as_they_are():
     ("kind", "code", "late"), [("frozen", FROZEN, 0.125), ("nan", NO_NUMBER, 0.05), ("range", OUT_OF_RANGE, 0.05)]
 )
 def test_each_fault_of_each_sensor_is_found_in_time_and_no_other_and_never_gets_through(sensor, kind, code, late):
-    clean, reports = zip(*watched(stream(1.3), failing(sensor, kind, getattr(SIZES, sensor))), strict=True)
+    fault = failing(sensor, kind, getattr(SIZES, sensor), at=0.3)
+    clean, reports = zip(*watched(stream(0.6), fault), strict=True)
     at, what = found_at(reports, sensor)
     assert what == code
-    assert at == pytest.approx(1.0 + late, abs=2 * DT)
+    assert at == pytest.approx(0.3 + late, abs=2 * DT)
     others = [name for name in SENSORS if name != sensor and found_at(reports, name)]
     assert others == []
     assert all(map(math.isfinite, (n for c in clean for n in numbers(c))))
@@ -243,3 +247,24 @@ def test_one_bad_number_of_one_joint_is_found_along_any_axis(axis, quantity):
     assert check_sample(limits, sample(0.8), sound) == (0.0, 0.0, 1.0)  # the other joint stands still
     assert check_sample(limits, sample(float("nan")), sound)[:2] == (1.0, 1.0)
     assert check_sample(limits, sample(-10.5), sound)[:2] == (0.0, 1.0)
+
+
+BAD, HEALTHY = VALID._replace(failure=NO_NUMBER), PerSensor(*[VALID] * 6)
+PLAIN = SimpleNamespace(motion_rate=100.0, velocity_gain=0.25)
+BEFORE = SimpleNamespace(
+    velocity=Vec3(1.0, 2.0, 3.0), valid=SimpleNamespace(motion=SimpleNamespace(position=Vec3(0.5, 0.5, 0.5)))
+)
+SAMPLE = SimpleNamespace(position=Vec3(0.53, 0.5, 0.46), velocity=Vec3(9.0, 9.0, 9.0), fresh=1.0)
+
+
+@pytest.mark.parametrize("lost", [{"healths": HEALTHY._replace(velocity=BAD)}, {"report": WELL._replace(velocity=2.0)}])
+def test_the_substituted_velocity_follows_the_derivative_of_the_position_by_the_gain_while_there_is_a_new_one(lost):
+    def found(sample=SAMPLE, healths=HEALTHY, report=WELL):
+        return substitute_velocity(PLAIN, BEFORE, sample, healths, report)
+
+    assert found() == SAMPLE.velocity
+    assert found(**lost) == pytest.approx([1.0 + 0.25 * (3.0 - 1.0), 2.0 * 0.75, 3.0 + 0.25 * (-4.0 - 3.0)])
+    held = SimpleNamespace(**{**vars(SAMPLE), "fresh": 0.0})
+    assert found(held, **lost) == BEFORE.velocity
+    no_position = lost.get("healths", HEALTHY)._replace(position=BAD)
+    assert found(**{**lost, "healths": no_position}) == BEFORE.velocity
