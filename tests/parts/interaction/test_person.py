@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from law_values import array, random_state, seeds
 from scipy.integrate import solve_ivp
 from scipy.signal import lsim, lti, welch
@@ -60,6 +60,7 @@ def shaken(rng: np.random.Generator) -> TremorNoise:
 
 
 @MODELS
+@settings(max_examples=30)
 @given(seed=seeds)
 def test_force_and_couple_never_exceed_their_bounds(model, seed):
     rng = np.random.default_rng(seed)
