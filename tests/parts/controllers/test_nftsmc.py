@@ -13,6 +13,7 @@ from tandemlift.core.vector import ZERO, Quat, Vec3
 from tandemlift.parts.controllers import Measured, Reference, control
 from tandemlift.parts.controllers.attitude_reference import (
     AttitudeReference,
+    CommandFilter,
     CommandFilterState,
     command_filter,
     shape_reference,
@@ -171,3 +172,11 @@ def test_noise_in_the_accelerations_of_a_smooth_reference_is_that_of_the_closed_
         tracked, memory = shape_reference(k, memory, Vec3(0.0 if i else 1.0, 0.0, 0.0))
         squares += tracked.accelerations.x**2
     assert np.sqrt(squares) == pytest.approx(np.sqrt(0.001 * bandwidth**5 / 32.0), rel=0.05)  # ω h = 0.04
+
+
+def test_the_settings_pick_the_types():
+    k = paper_controller(attitude_reference_derivatives="filtered", filter_bandwidth=20.0, euler_rates="body")
+    assert isinstance(k.derivatives, CommandFilter)
+    assert isinstance(k.rates, BodyRates)
+    assert k.derivatives.bandwidth == 20.0
+    assert k.feedforward == 0.0

@@ -5,6 +5,7 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.core.vector import ZERO, Quat, Vec3, each, vec3
+from tandemlift.parts.estimation.navigation import NavigationState, Navigator, innovation
 from tandemlift.parts.estimation.push_confirmation import outside_load, rotor_model, withheld
 from tandemlift.parts.estimation.push_estimate import PushEstimate
 from tandemlift.parts.estimation.wrench.confirmed_part import (
@@ -19,7 +20,7 @@ from tandemlift.parts.estimation.wrench.tare import SideForces, TareSums, summed
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.sensors.readings import ImuReading
+from tandemlift.parts.sensors.readings import ImuReading, MotionReading
 
 DT = 0.01
 AT_ONCE = LowPass(0.0, 0.0, 0.0, 0.0)
@@ -51,12 +52,36 @@ def test_a_joint_that_is_wrong_becomes_the_new_zero_within_seconds():
     assert learned(2.0, -2.0, RELEARN_TIME)[0].offset == pytest.approx(1.8 * (1.0 - np.exp(-1.0)), abs=0.15)
 
 
+def test_the_mean_square_grows_with_the_load_beside_a_push_of_nothing():
+    low_pass, zero = AT_ONCE, Zero(0.0, 0.0, LowPassState(0.0, 0.0), 0.01, 0.0)
+    found = compared(low_pass, zero, 0.0, 0.5, 0.2, 0.0, 0.0, DT)
+    assert found.zero.square == pytest.approx(0.01 + (min(0.25, 0.09 + 0.04) - 0.01) * DT / GUST_TIME)
+
+
 @pytest.mark.parametrize(
     ("push", "left", "lately", "kept"),
     [(2.0, 0.2, 1.5, 1.5), (-2.0, -0.2, -1.5, -1.5), (2.0, 0.2, -1.5, 0.2), (1.0, 0.2, 1.5, 1.0), (2.0, 1.9, 1.5, 1.9)],
 )
 def test_of_a_push_there_stays_what_was_confirmed_lately_in_its_direction(push, left, lately, kept):
     assert given_up_slowly(push, left, lately) == pytest.approx(kept)
+
+
+def test_a_motion_sample_of_the_past_has_no_innovation_where_the_estimate_passed():
+    """A constant acceleration and turning about z: the sample is of `age` before, by the kinematics of each."""
+    age, p, v, a, w = 0.08, np.array([1.0, 2.0, 3.0]), np.array([0.5, -0.4, 0.3]), np.array([2.0, 1.0, -3.0]), 0.7
+    k = Navigator(**dict.fromkeys(Navigator._fields, 0.0))._replace(centre=ZERO, age=age)
+    nothing = dict.fromkeys(NavigationState._fields, ZERO)
+    m = NavigationState(
+        **nothing
+        | {"position": Vec3(*p), "velocity": Vec3(*v), "acceleration": Vec3(*a), "rates": Vec3(0.0, 0.0, w)}
+        | {"attitude": Quat(1.0, 0.0, 0.0, 0.0), "started": 1.0}
+    )
+    turned = Quat(np.cos(0.5 * w * age), 0.0, 0.0, -np.sin(0.5 * w * age))
+    then = MotionReading(*[None] * len(MotionReading._fields))._replace(
+        position=Vec3(*(p - v * age + 0.5 * a * age**2)), velocity=Vec3(*(v - a * age)), attitude=turned
+    )
+    off = innovation(k, m, then)
+    assert np.concatenate(off) == pytest.approx(np.zeros(9), abs=1e-4)
 
 
 STEP = 1e-3

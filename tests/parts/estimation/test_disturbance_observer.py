@@ -8,7 +8,7 @@ from scipy.signal import StateSpace, lsim
 
 import tandemlift as tl
 from tandemlift.core.vector import ZERO, Quat, Vec3, each, vec3
-from tandemlift.parts.estimation.disturbance_observer import observer_step, start_observer
+from tandemlift.parts.estimation.disturbance_observer import correction, growth, observer_step, start_observer
 from tandemlift.parts.mechanics.low_pass import low_pass_step
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -99,6 +99,16 @@ def test_super_twisting_finds_a_ramp_within_its_slope_in_finite_time_where_the_l
 def test_a_push_that_is_measured_is_no_disturbance():
     found = estimates(lambda t: np.zeros(3), 1000, push=Vec3(2.0, -1.0, 0.5), model="super-twisting")
     assert np.abs(found).max() < 1e-9
+
+
+def test_the_parts_of_the_injection_meet_continuously():
+    w, slope = 5.0, 2.0
+    e = np.linspace(-1.0, 1.0, 20001)
+    assert np.allclose(correction(e, w, slope)[np.abs(e) <= 0.08], 2.0 * w * e[np.abs(e) <= 0.08])
+    assert np.abs(np.diff(correction(e, w, slope))).max() <= 2.0 * w * 1e-4 * (1.0 + 1e-9)
+    assert np.abs(growth(e, w, slope)).max() == slope
+    far = np.abs(e) > 0.08
+    assert np.allclose(np.abs(correction(e, w, slope))[far], 2.0 * np.sqrt(slope * np.abs(e[far])))
 
 
 def test_nothing_is_estimated_on_the_ground():

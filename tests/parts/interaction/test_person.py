@@ -19,7 +19,10 @@ from tandemlift.parts.interaction.passage import APART, TURNING, trailing, turni
 from tandemlift.parts.interaction.person import (
     PathFollowing,
     PathLeg,
+    PersonSettings,
     PersonState,
+    PersonView,
+    guided_point,
     hand_target,
     landing_request,
     person_step,
@@ -36,6 +39,7 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 DT = 0.001
 NOBODY = PointPush(ZERO, mat3([[0.0] * 3] * 3))
 NO_PUSH = PushSamples(NOBODY, NOBODY, NOBODY)
+LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
 CALM = TremorNoise(ZERO, ZERO)
 MODELS = pytest.mark.parametrize("model", ["pull", "steer", "two-hands", "hold"])
 
@@ -159,6 +163,16 @@ def test_the_path_is_gone_along_leg_by_leg_with_a_rest_where_it_is_asked_for():
     assert landing_request(memory) == 1.0
 
 
+def test_two_hands_turn_the_vehicle_towards_its_heading_and_hold_it_at_the_centre():
+    person, memory, _ = company(
+        "two-hands", ({"point": [0.0, 0.0], "heading": 0.3, "dwell": 9.0},), tremor=0.0, grip=0.7
+    )
+    assert array(person.grip)[1] == 0.0
+    for k in range(2000):
+        output, memory = person_step(person, memory, NO_PUSH, at((0.0, 0.0, memory.leg.end.z)), CALM, k * DT, DT)
+    assert push_moment(output.start, LEVEL).z == pytest.approx(0.3 * person.settings.yaw_gain, abs=0.01)
+
+
 def test_what_is_seen_late_is_reckoned_ahead():
     """A vehicle that moves and turns steadily is held by a hand that moves with the grip: no force but the wanted."""
     person, memory, _ = company("steer", ((100.0, 0.0),), tremor=0.0, grip=0.8, delay=0.2, speed=0.5)
@@ -172,8 +186,7 @@ def test_what_is_seen_late_is_reckoned_ahead():
 
 def test_two_hands_turn_the_beam_as_a_spring_and_a_damper_about_the_vertical():
     """The couple K (ψ_leg − ψ) − D ψ̇ at the predicted heading; the heading of this leg is 0."""
-    person, memory, legs = company("two-hands", ((5.0, 0.0),), tremor=0.0, max_couple=1e3, grip=0.7)
-    assert person.grip.y == 0.0  # they hold it at the centre
+    person, memory, legs = company("two-hands", ((5.0, 0.0),), tremor=0.0, max_couple=1e3)
     s, ahead = person.settings, person.arm.horizon
     assert legs[0].heading == 0.0
     for yaw, rate in ((0.1, 0.0), (-0.2, 0.4), (0.0, -0.5)):
@@ -209,10 +222,19 @@ def test_a_heading_is_kept_and_another_is_reached_the_short_way_at_a_limited_rat
     assert found[-1] == pytest.approx(2.0 * np.pi - 3.0)
 
 
+VIEW = PersonView(Vec3(1.0, 2.0, 3.0), Vec3(0.1, 0.2, 0.3), Vec3(4.0, 5.0, 6.0), Vec3(0.4, 0.5, 0.6), 0.0, 0.0)
 LEG = PathLeg(ZERO, Vec3(8.0, 0.0, 0.0), *[0.0] * (len(PathLeg._fields) - 2))
 FOLLOWING = PathFollowing(**dict.fromkeys(PathFollowing._fields, 0.0))._replace(
     speed=0.5, gain=6.0, look_ahead=1.0, approach_gain=1.0
 )
+
+
+@pytest.mark.parametrize(
+    ("at_grip", "place", "velocity"), [(1.0, VIEW.grip, VIEW.grip_velocity), (0.0, VIEW.position, VIEW.velocity)]
+)
+def test_the_grip_is_guided_or_the_centre_of_mass(at_grip, place, velocity):
+    found = guided_point(PersonSettings(at_grip, 0.0, 0.0, 0.0), VIEW)
+    assert found == (place, velocity)
 
 
 def test_the_force_is_the_missing_speed_towards_a_place_ahead_on_the_leg_and_more_where_little_moves_nothing():

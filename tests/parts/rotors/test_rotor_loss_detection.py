@@ -218,3 +218,17 @@ def test_the_fraction_that_is_taken_for_lost_has_the_most_evidence(fit, size):
         wanted = shares[np.argmax([support(share, fit, size, per_spread) for share in shares.tolist()])]
         assert share_gone(fit, size, per_spread) == pytest.approx(wanted, abs=1e-4)
     assert support(1.0, fit, size, 7.0) == pytest.approx(2.0 * fit - size)
+
+
+def test_modelled_rotors_explain_the_change_of_momentum_that_they_make_about_every_axis():
+    """Level, with thrusts that differ: what the momentum changes by is their wrench, from the effect."""
+    thrusts = np.random.default_rng(5).uniform(2.0, 5.0, 8)
+    made = VEHICLE.effect @ thrusts
+    memory = SETTLED._replace(
+        thrusts=SETTLED.thrusts._replace(value=EIGHT(*thrusts.tolist())),
+        momentum=SETTLED.momentum._replace(rate=each(4)(*(made + np.array([0.5, 0.1, 0.2, 0.3])).tolist())),
+        others=SETTLED.others._replace(value=each(4)(0.0, 0.0, 0.0, 0.0)),
+    )
+    level = PilotInput(State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Absent())
+    assert np.abs(made).min() > 0.05  # about every axis
+    assert np.array(residual(DETECTION, memory, level)) == pytest.approx([0.5, 0.1, 0.2, 0.3])

@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from law_values import array, flat, random_attitude, rebuilt
+from hypothesis import given
+from law_values import array, flat, random_attitude, random_state, random_vec3, rebuilt, seeds
 from perceived import sensors
 from scipy import stats
 from scipy.spatial.transform import Rotation
@@ -46,6 +47,11 @@ NOISY = sensors(
 )
 
 
+def random_felt(rng: np.random.Generator) -> PerfectReadings:
+    force, torque = rng.standard_normal((2, 2, 3))
+    return PerfectReadings(random_vec3(rng), spread(force), spread(torque), ZERO)
+
+
 def hiss(rng: np.random.Generator, size: Any = None) -> SensorNoise:
     """Standard normals for a step, of one flight or of many at once."""
     shape = (27,) if size is None else (27, size)
@@ -59,6 +65,16 @@ def flown(k: Sensors, steps: int, seed: int, flights: int, unit_of: Any = lambda
         readings, memory = sense(k, memory, AT_REST, FELT, AT_REST.attitude, hiss(rng, flights))
         out.append(unit_of(readings))
     return out
+
+
+@given(seeds)
+def test_perfect_sensors_read_every_bit_of_what_is_felt(seed):
+    rng = np.random.default_rng(seed)
+    k, s, felt, believed = sensors(2, STEP), random_state(rng), random_felt(rng), random_attitude(rng)
+    memory = start_sensing(k, AT_REST, FELT, AT_REST.attitude)
+    readings, _ = sense(k, memory, s, felt, believed, hiss(rng))
+    assert readings.imu == (felt.specific_force, s.rates, felt.joint_force, felt.joint_torque, believed, 1.0)
+    assert readings.motion == (s.position, s.velocity, s.attitude, 1.0)
 
 
 def test_before_the_first_step_stands_a_reading_with_bias_and_without_noise():
