@@ -108,6 +108,13 @@ def case(request):
     return case_of(request.param)
 
 
+def test_variants_differ_in_type():
+    """So that the tests below fly different loops."""
+    from tandemlift.simulation.plan import FlightPlan
+
+    assert len({FlightPlan(tl.load_mission(*variant)).variant for variant in VARIANTS.values()}) == len(VARIANTS)
+
+
 def test_numpy_broadcasts_the_step(case):
     rows = case.step(case.numbers)
     case.assert_agreement(np.array([np.broadcast_to(row, BATCH) for row in rows]))
