@@ -17,73 +17,21 @@ from tandemlift.pictures.report.paper_figures import errata
 SOURCE, TESTS = ROOT / "src" / "tandemlift", ROOT / "tests"
 PAPER = ROOT.parent / "shared" / "paper.tex"
 
-LABELS = [
-    "R_equ",
-    "omegat_theta_equ",
-    "trans_rot_quad_equ",
-    "total_i_thrust_moments_equ",
-    "input_vector_equ",
-    "trans_rot_payload_equ",
-    "kinematic_equ",
-    "trans_rot_sys_equ",
-    "contro_input_equ",
-    "b_matrix_equ",
-    "u_inputs",
-    "optim_fun_equ",
-    "cost_fun_equ",
-    "h_matrix_equ",
-    "optim_cont_final_equ",
-    "xsi_equ",
-    "xsi_seprate_equ",
-    "vertual_cont_equ",
-    "components_equ",
-    "error_equ",
-    "sgn_equ",
-    "sliding_surface_equ",
-    "sliding_surface_dot_equ",
-    "sdot_equ",
-    "u_hat_equ",
-    "control_final1_equ",
-    "lyap_fun_equ",
-    "vdot_equ",
-    "vsdot_equ",
-    "vsdot_f_equ",
-    "vdot_tr_equ",
-    "equ_dt",
-    "equ_dt_int",
-    "equ_integral",
-    "reach_time_equ",
-    "pos_cont_equ",
-    "thrus_z_equ",
-    "equ_des_orient",
-    "orient_cont_equ",
-    "sat_equ",
-    "control_final_equ",
-    "equ4",
-]
+LABELS = [  # of the paper, in its order
+    "R_equ", "omegat_theta_equ", "trans_rot_quad_equ", "total_i_thrust_moments_equ", "input_vector_equ",
+    "trans_rot_payload_equ", "kinematic_equ", "trans_rot_sys_equ", "contro_input_equ", "b_matrix_equ", "u_inputs",
+    "optim_fun_equ", "cost_fun_equ", "h_matrix_equ", "optim_cont_final_equ", "xsi_equ", "xsi_seprate_equ",
+    "vertual_cont_equ", "components_equ", "error_equ", "sgn_equ", "sliding_surface_equ", "sliding_surface_dot_equ",
+    "sdot_equ", "u_hat_equ", "control_final1_equ", "lyap_fun_equ", "vdot_equ", "vsdot_equ", "vsdot_f_equ",
+    "vdot_tr_equ", "equ_dt", "equ_dt_int", "equ_integral", "reach_time_equ", "pos_cont_equ", "thrus_z_equ",
+    "equ_des_orient", "orient_cont_equ", "sat_equ", "control_final_equ", "equ4",
+]  # fmt: skip
 STEPS = {"vdot_tr_equ", "equ_dt", "equ_dt_int", "equ_integral"}  # of a derivation: no law needs them
 ERRATA = {
-    "equ_des_orient",
-    "equ4",
-    "kinematic_equ",
-    "trans_rot_payload_equ",
-    "input_vector_equ",
-    "b_matrix_equ",
-    "cost_fun_equ",
-    "pos_cont_equ",
-    "sat_equ",
-    "control_final_equ",
-    "u_hat_equ",
-    "vsdot_f_equ",
-    "lyap_fun_equ",
-    "xsi_seprate_equ",
-    "reach_time_equ",
-    "sliding_surface_equ",
-    "Theorem 1",
-    "Assumption 4",
-    "Table II",
-    "Table III",
-}
+    "equ_des_orient", "equ4", "kinematic_equ", "trans_rot_payload_equ", "input_vector_equ", "b_matrix_equ",
+    "cost_fun_equ", "pos_cont_equ", "sat_equ", "control_final_equ", "u_hat_equ", "vsdot_f_equ", "lyap_fun_equ",
+    "xsi_seprate_equ", "reach_time_equ", "sliding_surface_equ", "Theorem 1", "Assumption 4", "Table II", "Table III",
+}  # fmt: skip
 LABEL = re.compile(r"\b(?:[A-Za-z]\w*equ|equ_\w+|equ\d|u_inputs)\b")
 SPAN = re.compile(r"`([^`]+)`")
 
@@ -172,7 +120,7 @@ def test_every_erratum_has_one_entry():
     assert Counter(erratum.about for erratum in errata()) == Counter(ERRATA)
 
 
-@pytest.mark.parametrize("erratum", errata(), ids=lambda erratum: erratum.about)
+@for_all(errata(), lambda erratum: erratum.about)
 def test_an_erratum_says_what_is_printed_what_is_right_how_it_shows_and_where_it_is_tested(erratum):
     assert erratum.printed
     assert erratum.right

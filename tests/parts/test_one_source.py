@@ -18,13 +18,16 @@ from tandemlift.simulation.preparation.assemble import assemble
 
 IDEAL: dict[str, dict[str, Any]] = {
     "tanh, hard gate, zero derivatives, exact rates, exact tilt, cubic, diagonal inertia, central pushes": {},
-    "saturation, soft gate, filtered, body rates, printed tilt, power, diagonal inertia, pushes at points": {
+    "saturation, soft gate, filtered, body rates, printed tilt, power, full inertia, pushes at points, feed-forward": {
         "controller.switching": "saturation",
         "controller.attitude_reference_derivatives": "filtered",
         "controller.euler_rates": "body",
         "controller.tilt_inverse": "printed",
         "controller.gains.a": 2.5,
+        "controller.human_force_feedforward": True,
         "admittance.gate": "soft",
+        "vehicle.quadrotors.1.position": [-0.2, -1.0, 0.3],
+        "vehicle.quadrotors.1.layout": "x",
         "pushes.0.point": [0.1, 0.8, -0.06],
     },
     "sign, soft gate, filtered, exact rates, exact tilt, power, full inertia, pushes at points, re-anchoring": {
@@ -36,13 +39,6 @@ IDEAL: dict[str, dict[str, Any]] = {
         "admittance.hold_after_release": True,
         "vehicle.quadrotors.0.position": [0.3, 1.0, 0.2],
         "pushes.0.point": [0.1, 0.8, -0.06],
-    },
-    "tanh, hard gate, zero derivatives, body rates, printed tilt, cubic, full inertia, feed-forward": {
-        "controller.euler_rates": "body",
-        "controller.tilt_inverse": "printed",
-        "controller.human_force_feedforward": True,
-        "vehicle.quadrotors.1.position": [-0.2, -1.0, 0.3],
-        "vehicle.quadrotors.1.layout": "x",
     },
 }
 REAL = "real rotors, limits, floor, walls, turbulence, gusts, sensors, estimators"

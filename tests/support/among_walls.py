@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import pytest
 from law_values import BEAM, paper_vehicle, quadrotor
+from scipy.optimize import lsq_linear
 
 from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
 from tandemlift.engines.models.links import parts_layout_from
@@ -20,7 +20,6 @@ LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
 LENGTH, RADIUS, GUARD = 2.0, 0.05, 0.375
 STEP = 0.001
 PARTS = (Vec3, Vec3, Quat, Vec3)  # of a state
-EACH_COUNT = pytest.mark.parametrize("count", [1, 2, 3, 4])
 
 
 def walls_of(
@@ -67,3 +66,9 @@ FLAT = Vehicle(BEAM, [quadrotor((0.0, 1.0, 0.0)), quadrotor((0.0, -1.0, 0.0))]) 
 
 def random_wall(rng: np.random.Generator, size: float = 1.0) -> Wall:
     return wall(*rng.uniform(-size, size, (2, 2)), rng.uniform(-size, size))
+
+
+def nearest(p: np.ndarray, columns: Any, bounds: Any) -> float:
+    """The least |p + columns x| with x within bounds."""
+    low, high = np.transpose(bounds)
+    return float(np.sqrt(2.0 * lsq_linear(np.transpose(columns), -p, (low, high), method="bvls", tol=1e-14).cost))

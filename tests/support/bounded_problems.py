@@ -33,8 +33,7 @@ PLACES = {
     3: [(0.9, 0.0), (-0.5, 0.8), (-0.5, -0.8)],
     4: [(0.8, 0.8), (0.8, -0.8), (-0.8, 0.8), (-0.8, -0.8)],
 }
-VEHICLES = [(count, layout) for count in PLACES for layout in ("+", "x")]
-EVERY = pytest.mark.parametrize(("count", "layout"), VEHICLES)
+EVERY = pytest.mark.parametrize(("count", "layout"), [(1, "x"), (2, "+"), (2, "x"), (4, "+")])
 
 
 class Craft(NamedTuple):

@@ -1,10 +1,9 @@
 """How far guards and beam are from walls, against bounded least squares."""
 
 import numpy as np
-from among_walls import GUARD, LENGTH, PAIR, RADIUS, walls_of
+from among_walls import GUARD, LENGTH, PAIR, RADIUS, nearest, walls_of
 from hypothesis import assume, given
 from law_values import array, random_state, seeds
-from scipy.optimize import lsq_linear
 from scipy.spatial.transform import Rotation
 
 from tandemlift.core.vector import Absent
@@ -12,12 +11,6 @@ from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.parts.contact.clearance import clearance, smaller_clearance
 from tandemlift.parts.contact.walls import nearest_with, no_walls_near
 from tandemlift.parts.mechanics.wall_geometry import wall
-
-
-def least(p, columns, bounds):
-    """The least |p + columns x| with x within bounds."""
-    low, high = np.transpose(bounds)
-    return float(np.sqrt(2.0 * lsq_linear(np.transpose(columns), -p, (low, high), method="bvls", tol=1e-14).cost))
 
 
 @given(seed=seeds)
@@ -35,9 +28,9 @@ def test_clearance_is_that_of_bounded_least_squares(seed):
     for (start, end), top in zip(ends, tops, strict=True):
         corner, along, down = np.array([*start, top]), np.array([*(end - start), 0.0]), np.array([0.0, 0.0, -1.0])
         rectangle, limits = [-along, -down], [(0.0, 1.0), (0.0, 1e9)]
-        guards.append([least(p + R @ d - corner, rectangle, limits) - GUARD for d in PAIR.lever_arms])
+        guards.append([nearest(p + R @ d - corner, rectangle, limits) - GUARD for d in PAIR.lever_arms])
         middle = p - R @ PAIR.center_of_mass - corner
-        beams.append(least(middle, [*rectangle, R[:, 1]], [*limits, (-LENGTH / 2, LENGTH / 2)]) - RADIUS)
+        beams.append(nearest(middle, [*rectangle, R[:, 1]], [*limits, (-LENGTH / 2, LENGTH / 2)]) - RADIUS)
     np.testing.assert_allclose(far.guards, np.min(guards, axis=0), atol=1e-6)
     assume(min(beams) > 1e-6 - RADIUS)  # it does not go through a wall
     assert abs(min(*far.beam.ends, far.beam.length) - min(beams)) < 1e-6
@@ -48,11 +41,8 @@ def test_the_lesser_of_two_clearances_is_taken_part_by_part():
     frame, rng, found = parts_layout_from(PAIR), np.random.default_rng(3), []
     for _ in range(2):
         state = random_state(rng)
-        found.append(
-            clearance(
-                w, nearest_with(w, wall((3.0, -9.0), (3.0, 9.0), 9.0), no_walls_near(w), frame, state), frame, state
-            )
-        )
+        near = nearest_with(w, wall((3.0, -9.0), (3.0, 9.0), 9.0), no_walls_near(w), frame, state)
+        found.append(clearance(w, near, frame, state))
     both = smaller_clearance(*found)
     assert tuple(both.guards) == tuple(map(min, found[0].guards, found[1].guards))
     assert tuple(both.beam.ends) == tuple(map(min, found[0].beam.ends, found[1].beam.ends))

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
-from among_walls import FLAT, GUARD, PARTS, STEP, at, found, polygon, walls_of
+from among_walls import FLAT, PARTS, STEP, at, found, polygon, walls_of
 from law_values import flat, free_body, rebuilt, record
 from machine_code import Loop
 from scipy.spatial.transform import Rotation
@@ -114,9 +114,8 @@ ROOM = polygon([(-3.0, -3.0), (3.0, -3.0), (3.0, 3.0), (-3.0, 3.0)])
 
 
 def wandering(rng: np.random.Generator) -> State:
-    yaw = Quat(
-        *map(float, Rotation.from_rotvec([*rng.normal(0.0, 0.2, 2), rng.normal(0.0, 0.5)]).as_quat(scalar_first=True))
-    )
+    turn = Rotation.from_rotvec([*rng.normal(0.0, 0.2, 2), rng.normal(0.0, 0.5)])
+    yaw = Quat(*turn.as_quat(scalar_first=True).tolist())
     velocity, rates = rng.normal(0.0, 1.5, 3) * [1.0, 1.0, 0.1], rng.normal(0.0, [0.3, 0.3, 1.0])
     return at([1.2, -0.2, 0.7], velocity, yaw, vec3(rates))
 
@@ -128,19 +127,13 @@ def restitution(damping_ratio: float) -> float:
     return float(np.exp(-damping_ratio / root * phase))
 
 
-@pytest.mark.parametrize("damping_ratio", [0.0, 0.1, 0.5])
+@pytest.mark.parametrize("damping_ratio", [0.0, 0.5])
 def test_both_guards_bounce_off_a_wall_with_the_closed_form_restitution(flown, damping_ratio):
     w = walls_of(FLAT, friction=0.0, damping_ratio=damping_ratio)
     rows = flown(at([0.0, 0.0, 1.0], [0.8, 0.0, 0.0]), 2.0, [wall((1.0, -3.0), (1.0, 3.0), 9.0)], w)
     both = damping_ratio * np.sqrt(2.0)  # two springs and two dampers, one mass
     assert rows[-1, 3] == pytest.approx(-0.8 * restitution(both), abs=0.002)  # it touches within a step
     assert np.abs(rows[:, [4, 5, 10, 11, 12]]).max() < 1e-9
-
-
-def test_a_vehicle_pushed_against_a_wall_rests_in_it_as_deep_as_its_springs_give(flown):
-    w = walls_of(FLAT)
-    rows = flown(at([0.5, 0.0, 1.0]), 20.0, [wall((1.0, -3.0), (1.0, 3.0), 9.0)], w, (5.0, 0.0, 0.0))
-    assert rows[-1, 0] == pytest.approx(1.0 - GUARD + 5.0 / (2.0 * w.springs.stiffness), abs=1e-9)
 
 
 def test_a_beam_pressed_flat_on_a_wall_lies_on_both_ends(flown):
@@ -157,7 +150,7 @@ def test_no_wall_presses_in_a_step_in_which_it_is_said_that_none_may(flown):
     rows = flown(wandering(np.random.default_rng(4)), 6.0, ROOM, w)
     touches = rows[:-1, 13] + rows[1:, 13] > 0.0  # at the start of a step or of the next one
     said = []
-    for k in (chosen := np.flatnonzero(touches | (np.arange(len(touches)) % 20 == 0))):
+    for k in (chosen := np.flatnonzero(touches | (np.arange(len(touches)) % 100 == 0))):
         s = State(*[kind(*part) for kind, part in zip(PARTS, np.split(rows[k, :13], [3, 6, 10]), strict=True)])
         room = clearance(w, found(w, ROOM, frame, s), frame, s)
         freely = rigid_body_motion(body, s, Wrench(FLAT.weight, ZERO), CentralPush(ZERO))

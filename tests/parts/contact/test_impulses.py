@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from among_walls import FLAT, GUARD, RADIUS, STEP, at, found, random_wall, walls_of
+from among_walls import FLAT, RADIUS, STEP, at, found, random_wall, walls_of
 from law_values import flat, free_body
 from scipy.spatial.transform import Rotation
 
 from tandemlift.core.vector import ZERO, Quat, vec3
 from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.parts.contact.impulses import CORE, impulses_of_walls
-from tandemlift.parts.contact.walls import loads_of_walls, near_wall_contact
-from tandemlift.parts.mechanics.loads import resultant
+from tandemlift.parts.contact.walls import near_wall_contact
 from tandemlift.parts.mechanics.push import CentralPush
 from tandemlift.parts.mechanics.rigid_body import State, Wrench, rigid_body_motion
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
@@ -76,7 +75,7 @@ def test_impulses_hold_what_lies_on_a_core_against_its_weight():
 def test_impulses_only_push_and_never_add_energy(off):
     rng, pressed, body = np.random.default_rng(3), 0, BODY if off is None else BODY._replace(center=vec3(off))
     place = off or (0.0, 0.0, 0.0)
-    for _ in range(300):
+    for _ in range(80):
         q = Rotation.from_rotvec(rng.normal(0.0, 0.6, 3)).as_quat(scalar_first=True)
         s = at(rng.normal(0.0, 0.3, 3), rng.normal(0.0, 60.0, 3), Quat(*map(float, q)), vec3(rng.normal(0.0, 6.0, 3)))
         free = rigid_body_motion(
@@ -87,16 +86,4 @@ def test_impulses_only_push_and_never_add_energy(off):
         assert min(normals) >= 0.0
         assert kinetic(after.state, place) <= kinetic(s, place) * (1.0 + 1e-12)
         pressed += max(normals) > 0.0
-    assert pressed > 50
-
-
-def test_the_loads_of_impulses_are_the_change_of_momentum():
-    s = at([0.0, 0.0, 0.02], [1.0, 0.4, -12.0], rates=vec3([0.5, 0.2, -0.4]))
-    after = struck(s, [wall((-1.0, 0.4), (1.0, 0.5), 0.0), wall((0.2 * GUARD, 0.5), (0.2 * GUARD, 2.0), 9.0)])
-    loads = loads_of_walls(SHAPES, after.contact, FRAME, rotation_from_quaternion(s.attitude))
-    load = resultant(FRAME, s.attitude, loads)
-    assert sum(n > 0.0 for n in normals_of(after.contact)) > 1
-    force = FLAT.mass * (np.array(after.state.velocity) - np.array(s.velocity)) / STEP
-    moment = FLAT.inertia @ (np.array(after.state.rates) - np.array(s.rates)) / STEP
-    np.testing.assert_allclose(list(load.force), force, atol=1e-6)
-    np.testing.assert_allclose(list(load.moment), moment, atol=1e-6)
+    assert pressed > 15

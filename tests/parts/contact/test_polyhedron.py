@@ -8,14 +8,12 @@ import numpy as np
 import pytest
 from among_walls import PAIR, at, found, pressed, random_wall, walls_of
 from law_values import array, flat, random_state
-from machine_code import answers
 from passing import upright
 from scipy.optimize import nnls
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 from thrown import arena, random_throw
 
-from tandemlift.compiler.machine_code.machine import QUICK
 from tandemlift.core.vector import ZERO, Quat, vec3
 from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.parts.contact.clearance import clearance, least_clearance
@@ -56,9 +54,8 @@ def distance_of(corners, one):
     return nnls(np.vstack([columns, one_of_each]), np.array([0.0, 0.0, 0.0, HEAVY, HEAVY]), maxiter=10000)[1]
 
 
-@pytest.mark.parametrize("seed", range(5))
-def test_the_hull_of_corners_has_the_faces_and_areas_of_qhull(seed):
-    points = np.random.default_rng(seed).normal(size=(32, 3))
+def test_the_hull_of_corners_has_the_faces_and_areas_of_qhull():
+    points = np.random.default_rng(0).normal(size=(32, 3))
     corners = points[ConvexHull(points).vertices]
     ours, theirs = convex_hull(tuple(map(tuple, corners.tolist()))), ConvexHull(corners)
     assert sorted(map(sorted, ours.triangles.tolist())) == sorted(map(sorted, theirs.simplices.tolist()))
@@ -68,18 +65,21 @@ def test_the_hull_of_corners_has_the_faces_and_areas_of_qhull(seed):
 
 
 @BODIES
-@pytest.mark.parametrize("seed", range(15))
-def test_the_clearance_of_a_body_is_the_distance_of_its_core_less_its_rounding(body, seed):
-    rng = np.random.default_rng(seed)
-    s, one, w = random_state(rng), random_wall(rng, 1.5), walls_around(body)
-    true = distance_of(core_in(w, s), one)
-    said = least_clearance(clearance(w, found(w, [one], FRAME, s), FRAME, s).beam)
-    if true > 1e-3:  # else the wall may pass through the core
-        assert said + w.beam.radius == pytest.approx(true, abs=2e-3 if body is WEDGE else 1e-5)
+def test_the_clearance_of_a_body_is_the_distance_of_its_core_less_its_rounding(body):
+    w, apart = walls_around(body), 0
+    for seed in range(10):
+        rng = np.random.default_rng(seed)
+        s, one = random_state(rng), random_wall(rng, 1.5)
+        true = distance_of(core_in(w, s), one)
+        if true > 1e-3:  # else the wall may pass through the core
+            said = least_clearance(clearance(w, found(w, [one], FRAME, s), FRAME, s).beam)
+            assert said + w.beam.radius == pytest.approx(true, abs=2e-3 if body is WEDGE else 1e-5)
+            apart += 1
+    assert apart >= 5
 
 
 @BODIES
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(4))
 def test_at_rest_force_and_moment_are_the_slope_of_the_elastic_energy(body, seed):
     rng = np.random.default_rng(seed)
     w = walls_around(body)
@@ -108,23 +108,6 @@ def test_a_plate_on_the_top_of_a_short_wall_under_its_middle_is_held_up_by_its_f
     assert load.payload.force.z == pytest.approx(
         2.0 * 0.001 * w.springs.stiffness, rel=1e-6
     )  # at both ends of the wall
-
-
-def test_machine_code_of_a_body_among_walls_equals_plain_python():
-    w, s = walls_around(BLOCK), at([0.0, 0.0, 0.2], [0.3, -0.2, 0.1], rates=vec3([0.3, 0.1, 0.2]))
-    near = found(
-        w,
-        [wall((0.395, -1.0), (0.395, 1.0), 9.0), wall((-1.0, 0.1), (1.0, 0.2), 0.105 + float(PAIR.origin[2]))],
-        FRAME,
-        s,
-    )
-
-    def loads(w, near, s):
-        return near_wall_loads(w, near, FRAME, s)
-
-    wanted = np.array(flat(loads(w, near, s)))
-    assert np.abs(wanted).max() > 1.0
-    assert np.abs(answers(loads, (w, near, s), level=QUICK)[0] - wanted).max() < 1e-12 * np.abs(wanted).max()
 
 
 def test_a_plate_thrown_into_a_room_with_a_short_wall_stays_there_and_gains_no_energy():

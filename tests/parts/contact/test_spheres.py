@@ -60,12 +60,11 @@ def test_a_bare_rotor_is_pressed_by_the_depth_of_its_sphere_and_its_clearance_sa
     assert min(clearance(w, near, frame, s).rotors.rims) == pytest.approx(0.36 - 0.25 - 0.128)
 
 
-@pytest.mark.parametrize("changes", [[], BARE])
-def test_a_vehicle_thrown_into_a_room_leaves_no_wall_with_more_energy(changes):
-    room, rng, touched = arena("iris", ("walls", ROOM), *changes), np.random.default_rng(0), 0
-    for _ in range(30):
+def test_a_vehicle_thrown_into_a_room_leaves_no_wall_with_more_energy():
+    room, rng, touched = arena("iris", ("walls", ROOM), *BARE), np.random.default_rng(0), 0
+    for _ in range(12):
         flight = room.throw(random_throw(rng, 1.5, (1.5, 2.5)), 2.5)
         free = flight.energy[flight.walls == 0.0]
         assert np.diff(free).max() < 1e-14 * flight.kinetic.max()
         touched += flight.walls.max() > 0.0
-    assert touched > 15
+    assert touched > 6

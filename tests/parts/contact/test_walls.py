@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 import itertools
-from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
-from among_walls import EACH_COUNT, GUARD, LENGTH, PAIR, RADIUS, SINGLE, at, found, pressed, random_wall, walls_of
+from among_walls import GUARD, LENGTH, PAIR, SINGLE, at, found, nearest, pressed, random_wall, walls_of
 from hypothesis import assume, given
+from hypothesis import strategies as st
 from law_values import array, flat, random_state, random_vehicle, seeds
-from scipy.optimize import lsq_linear
 from scipy.spatial.transform import Rotation
 
 from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
 from tandemlift.engines.models.links import parts_layout_from
-from tandemlift.parts.contact.walls import near_wall_loads, nearest_with
-from tandemlift.parts.mechanics.loads import PartLoads, resultant
+from tandemlift.parts.mechanics.loads import resultant
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.wall_geometry import Wall, offset, wall
+
+counts = st.integers(1, 4)  # of quadrotors
 
 # Distances
 
@@ -27,12 +27,6 @@ from tandemlift.parts.mechanics.wall_geometry import Wall, offset, wall
 def plane(one: Wall) -> tuple[np.ndarray, np.ndarray]:
     """Start at the top (3), and the way to the end (3)."""
     return np.array([one.x, one.y, one.top]), np.array([one.along_x, one.along_y, 0.0])
-
-
-def nearest(p: np.ndarray, columns: Any, bounds: Any) -> float:
-    """The least |p + columns x| with x in bounds."""
-    low, high = np.transpose(bounds)
-    return float(np.sqrt(2.0 * lsq_linear(np.transpose(columns), -p, (low, high), method="bvls", tol=1e-14).cost))
 
 
 DOWN = np.array([0.0, 0.0, -1.0])
@@ -57,8 +51,7 @@ def meet_near(p: Vec3, one: Wall, other: Wall) -> bool:
     return min(float(np.linalg.norm(separation)) for separation in separations) < 1e-3
 
 
-@EACH_COUNT
-@given(seed=seeds)
+@given(counts, seeds)
 def test_the_two_nearest_walls_of_each_quadrotor_are_found_in_any_order(count, seed):
     rng = np.random.default_rng(seed)
     vehicle, s = random_vehicle(rng, count), random_state(rng)
@@ -91,16 +84,6 @@ def features(vehicle: Vehicle, one: Wall, s: State) -> list[float]:
 
 
 @given(seed=seeds)
-def test_a_beam_that_is_not_within_a_wall_is_as_far_from_it_as_its_nearest_end_edge_or_top(seed):
-    rng = np.random.default_rng(seed)
-    one, s = random_wall(rng), random_state(rng)
-    center, b = beam_pose(PAIR, s)
-    start, along = plane(one)
-    true = nearest(center - start, [b, -along, -DOWN], [(-0.5 * LENGTH, 0.5 * LENGTH), (0, 1), BELOW])
-    assert min(features(PAIR, one, s)) == pytest.approx(true, abs=1e-6) or true < 1e-6
-
-
-@given(seed=seeds)
 def test_at_rest_force_and_moment_are_the_slope_of_the_elastic_energy(seed):
     """Of a wall near the beam and both guards; the distances are those of bounded least squares."""
     rng = np.random.default_rng(seed)
@@ -126,25 +109,6 @@ def test_at_rest_force_and_moment_are_the_slope_of_the_elastic_energy(seed):
 
 
 # Single contacts
-
-
-def test_a_guard_against_an_edge_is_pushed_straight_away_from_it():
-    away = np.array([0.3, 0.2, 0.0])
-    load = pressed(walls_of(SINGLE, radius=None), [wall((0.0, 0.0), (-2.0, -1.0), 2.0)], SINGLE, at([*away[:2], 1.0]))
-    depth = GUARD - np.linalg.norm(away)
-    force = walls_of(SINGLE, radius=None).springs.stiffness * depth * away / np.linalg.norm(away)
-    assert np.array(load.quadrotors.force)[:, 0] == pytest.approx(force, abs=1e-9)
-    assert np.array(load.quadrotors.moment) == pytest.approx(np.zeros((3, 1)), abs=1e-9)
-
-
-@given(seed=seeds)
-def test_above_the_top_nothing_touches_and_next_to_it_the_guard_is_pushed_up(seed):
-    rng = np.random.default_rng(seed)
-    s, w = at([rng.uniform(-1.0, 1.0), 0.0, 1.0]), walls_of(SINGLE, radius=None)
-    passed = pressed(w, [wall((-2.0, 0.0), (2.0, 0.0), 1.0 - GUARD)], SINGLE, s)
-    assert all(x == 0.0 for x in flat(passed))
-    lifted = pressed(w, [wall((-2.0, 0.0), (2.0, 0.0), 1.001 - GUARD)], SINGLE, s)
-    assert lifted.quadrotors.force.z[0] == pytest.approx(0.001 * w.springs.stiffness, rel=1e-9)
 
 
 def test_a_wall_split_in_two_presses_like_a_whole_one():
@@ -182,31 +146,3 @@ def test_a_guard_that_rolls_along_a_wall_feels_no_friction():
     s = at([1.0 - arm, 0.0, 1.0], [0.0, 2.0, 0.0], rates=Vec3(0.0, 0.0, -2.0 / arm))
     load = pressed(w, [wall((1.0, -3.0), (1.0, 3.0), 2.0)], SINGLE, s).quadrotors
     assert np.array(load.force)[:, 0] == pytest.approx([-0.01 * w.springs.stiffness, 0.0, 0.0], abs=1e-9)
-
-
-def test_a_beam_against_a_door_post_is_pushed_off_at_right_angles_where_the_post_is():
-    w, post, lower = walls_of(PAIR), (0.04, 0.3), -PAIR.center_of_mass[2]
-    load = pressed(w, [wall(post, (3.0, 0.3), 2.0)], PAIR, at([0.0, 0.0, 1.0])).payload
-    N = w.springs.stiffness * (RADIUS - 0.04)
-    assert array(load.force) == pytest.approx([-N, 0.0, 0.0], rel=1e-9)
-    assert array(load.moment) == pytest.approx([0.0, 0.0, 0.3 * N], rel=1e-9)
-    passed = pressed(w, [wall(post, (3.0, 0.3), 1.0 + lower - RADIUS)], PAIR, at([0.0, 0.0, 1.0])).payload
-    assert all(x == 0.0 for x in flat(passed))
-
-
-def test_a_beam_lowered_across_a_wall_is_held_up_by_its_top():
-    w, lower = walls_of(PAIR), -PAIR.center_of_mass[2]
-    load = pressed(w, [wall((-3.0, 0.2), (3.0, 0.2), 1.0 + lower - 0.03)], PAIR, at([0.0, 0.0, 1.0])).payload
-    N = w.springs.stiffness * (RADIUS - 0.03)
-    assert array(load.force) == pytest.approx([0.0, 0.0, N], rel=1e-9)
-    assert array(load.moment) == pytest.approx([0.2 * N, 0.0, 0.0], rel=1e-9)
-
-
-class Answer(NamedTuple):
-    near: Any
-    loads: PartLoads
-
-
-def both(w, one, near, frame, s):
-    near = nearest_with(w, one, near, frame, s)
-    return Answer(near, near_wall_loads(w, near, frame, s))

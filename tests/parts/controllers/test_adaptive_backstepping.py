@@ -39,14 +39,12 @@ def test_lyapunovs_function_falls_as_derived_and_the_disturbance_is_found(made):
 
 
 def test_it_flies_and_takes_a_constant_force_out_by_itself(made):
-    changes = {"disturbance.force": [1.0, 0.0, -1.0], "observer.model": "none", "estimator.tare_start": None}
-    flight = tl.fly(tl.load_mission("hover", {**changes, "mission.duration": 30.0}, controller=made[0]))
+    changes = {"disturbance.force": [1.0, 0.0, -1.0], "mission.duration": 30.0}
+    flight = tl.fly(tl.load_mission("hover", changes, controller=made[0]))
     late = flight.time > 25.0
     assert np.abs(flight["position_error"][late]).max() < 2e-3
-    lazy = tl.load_mission(
-        "hover", {**changes, "mission.duration": 30.0, "controller.adaptation": 1e-6}, controller=made[0]
-    )
-    m, c = lazy.vehicle.mass if hasattr(lazy.vehicle, "mass") else tl.Vehicle.from_settings(lazy.vehicle).mass, 1.5
+    lazy = tl.load_mission("hover", changes | {"controller.adaptation": 1e-6}, controller=made[0])
+    m, c = tl.Vehicle.from_settings(lazy.vehicle).mass, 1.5
     assert tl.fly(lazy)["position_error"][-1, 0] == pytest.approx(-1.0 / m / (1.0 + c * c), rel=0.05)
 
 

@@ -13,7 +13,6 @@ from patience import completed
 import tandemlift as tl
 from tandemlift.parts.controllers import CONTROLLERS, ControllerTable, controller, load_controller, register
 
-REGISTERED = sorted(CONTROLLERS)
 AWAY = {"mission.duration": 1.0, "initial.position": [0.1, 0.0, 0.0]}
 
 
@@ -57,54 +56,33 @@ def scaled(v):
 IMPORTED = "from my_helpers import scaled"
 
 
-def test_a_second_process_finds_the_compiled_law_until_it_changes(own, tmp_path):
-    own(LAW)
-
-    def made() -> int:
-        """How many modules a process compiles for a flight."""
-        environment = {**os.environ, "TANDEMLIFT_CACHE": str(tmp_path / "cache")}
-        command = [sys.executable, "-c", CACHED, "my_pd.py"]
-        return int(completed(command, capture_output=True, text=True, env=environment, check=True).stdout)
-
-    assert [made(), made()] == [1, 0]
-    assert len(list((tmp_path / "cache").rglob("*-quick.o"))) == 1
-    own(LAW + "\n# edited\n")
-    assert made() == 0, "the step is the same"
-    own(edited(LAW, ("e * k.stiffness", "e * (k.stiffness * 0.5)")))
-    assert [made(), made()] == [1, 0]
-
-
-def test_an_edit_of_another_file_whose_law_is_called_is_compiled_anew(own, tmp_path):
-    """In a process of its own, which imports it anew."""
+def test_a_second_process_finds_the_compiled_law_until_it_or_a_law_that_it_calls_changes(own, tmp_path):
+    """Each process imports both files anew; a comment changes no law."""
     called = ("tilt - attitude.angles", "scaled(tilt - attitude.angles)")
-    own(edited(LAW, called, ("class Settings", f"{IMPORTED}\n\n\nclass Settings")))
+    text = edited(LAW, called, ("class Settings", f"{IMPORTED}\n\n\nclass Settings"))
     folders = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])
     environment = {**os.environ, "TANDEMLIFT_CACHE": str(tmp_path / "cache"), "PYTHONPATH": folders}
-    command, said = [sys.executable, "-B", "-c", CACHED, "my_pd.py"], []
-    for text in (HELPER, HELPER, HELPER.replace("0.9", "0.8")):
-        (tmp_path / "my_helpers.py").write_text(text)
-        said.append(int(completed(command, capture_output=True, text=True, env=environment, check=True).stdout))
-    assert said == [1, 0, 1]
+    command, made = [sys.executable, "-B", "-c", CACHED, "my_pd.py"], []
+    for file, helper in ((text, HELPER), (text + "\n# edited\n", HELPER), (text, HELPER.replace("0.9", "0.8"))):
+        own(file)
+        own(helper, "my_helpers.py")
+        made.append(int(completed(command, capture_output=True, text=True, env=environment, check=True).stdout))
+    assert made == [1, 0, 1]
+    assert len(list((tmp_path / "cache").rglob("*-quick.o"))) == 2
 
 
-def test_an_edited_law_flies_as_edited_in_the_same_process(own):
-    """Also where the line and the name are what they were."""
+def test_a_law_flies_as_it_was_loaded_and_once_edited_as_edited(own):
+    """In one process, also where the line and the name are what they were, and the file has changed before a flight."""
 
-    def flown(text: str) -> tl.Flight:
-        return tl.fly(tl.load_mission("hover", AWAY, controller=load_controller(own(text))))
+    def loaded(text: str) -> tl.Mission:
+        return tl.load_mission("hover", AWAY, controller=load_controller(own(text)))
 
     softer = edited(LAW, ("e * k.stiffness", "e * (k.stiffness * 0.5)"))
-    first, second, third = (flown(text) for text in (LAW, softer, LAW))
+    mission = loaded(LAW)
+    own(softer)
+    first, second, third = tl.fly(mission), tl.fly(loaded(softer)), tl.fly(loaded(LAW))
     assert np.array_equal(first["position"], third["position"])
     assert np.abs(first["position"] - second["position"]).max() > 1e-3
-
-
-def test_a_law_is_traced_as_it_was_loaded_even_if_its_file_has_changed_since(own):
-    mission = tl.load_mission("hover", AWAY, controller=load_controller(own(LAW)))
-    own(edited(LAW, ("e * k.stiffness", "e * (k.stiffness * 0.5)")))
-    before = tl.fly(mission)
-    mission = tl.load_mission("hover", AWAY, controller=load_controller(own(LAW)))
-    assert np.array_equal(tl.fly(mission)["position"], before["position"])
 
 
 def test_an_unchanged_file_is_run_once_and_an_edited_one_anew(own):

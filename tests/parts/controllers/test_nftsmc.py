@@ -9,20 +9,18 @@ from law_values import IRIS, array, free_body, random_state, random_vec3, seeds
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
-from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import ZERO, Quat, Vec3
 from tandemlift.parts.controllers import Measured, Reference, control
 from tandemlift.parts.controllers.attitude_reference import (
     AttitudeReference,
     CommandFilter,
     CommandFilterState,
-    Unfiltered,
     command_filter,
     shape_reference,
 )
 from tandemlift.parts.controllers.equations_of_motion import GeneralizedVector, euler_dynamics, expanded_dynamics
 from tandemlift.parts.controllers.nftsmc import NFTSMC, BodyRates, ExactRates, attitude_law, euler_rates, position_law
-from tandemlift.parts.controllers.sliding_surface import Saturation, sliding_surface, switching, wanted_acceleration
+from tandemlift.parts.controllers.sliding_surface import Saturation, switching, wanted_acceleration
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import (
     euler_from_quaternion,
@@ -34,16 +32,13 @@ from tandemlift.parts.mechanics.trajectories import Trajectory
 from tandemlift.simulation.preparation.assemble import assemble
 
 DRAG = Vec3(0.1, 0.2, 0.3)
-
-
 MEMORY = assemble(tl.load_mission("paper")).model.flight_state.memory.controller
 
 
 def paper_controller(**changes) -> NFTSMC:
     """The paper's gains on the paper's vehicle, with more drag, so that a missing term shows."""
-    k = assemble(
-        tl.load_mission("paper", {f"controller.{key}": value for key, value in changes.items()})
-    ).model.pilot.controller
+    settings = {f"controller.{key}": value for key, value in changes.items()}
+    k = assemble(tl.load_mission("paper", settings)).model.pilot.controller
     return k._replace(drag_force=DRAG, drag_moment=DRAG)
 
 
@@ -98,9 +93,7 @@ def test_the_whole_controller_lifts_and_turns_the_model_as_wanted(seed):
     e = euler_from_quaternion(quaternion_from_euler(random_vec3(rng, 0.3)))
     state = random_state(rng)._replace(attitude=quaternion_from_euler(e.angles))
     reference = Reference(random_reference(rng), 0.0)
-    command, _ = control(
-        K, assemble(tl.load_mission("paper")).model.flight_state.memory.controller, Measured(state, ZERO), reference
-    )
+    command, _ = control(K, MEMORY, Measured(state, ZERO), reference)
     rates = euler_rates_from_rates(e, state.rates)
     moved = euler_dynamics(BODY, e, state.velocity, rates, command.wrench)
     T = reference.trajectory
@@ -170,14 +163,6 @@ def smooth_filter(bandwidth):
     return model.pilot.controller.derivatives, model.flight_state.memory.controller
 
 
-def test_a_smooth_reference_follows_a_ramp_by_the_delay_of_both_filters():
-    k, memory = smooth_filter(40.0)
-    for i in range(2000):
-        tracked, memory = shape_reference(k, memory, Vec3(0.001 * i, 0.0, 0.0))
-    assert tracked.angles.x == pytest.approx(1.999 - 4.0 / 40.0, abs=1.1e-3)
-    assert tracked.rates.x == pytest.approx(1.0, abs=1e-3)
-
-
 def test_noise_in_the_accelerations_of_a_smooth_reference_is_that_of_the_closed_form():
     """White noise σ every h leaves s² ω⁴/(s + ω)⁴ with σ √(h ω⁵/32): √(Σ g²) of the impulse response g."""
     bandwidth = 40.0
@@ -189,26 +174,9 @@ def test_noise_in_the_accelerations_of_a_smooth_reference_is_that_of_the_closed_
     assert np.sqrt(squares) == pytest.approx(np.sqrt(0.001 * bandwidth**5 / 32.0), rel=0.05)  # ω h = 0.04
 
 
-def test_without_a_filter_the_attitude_reference_is_at_rest():
-    tracked, memory = shape_reference(Unfiltered(), CommandFilterState(ZERO, ZERO), Vec3(0.1, 0.2, 0.3))
-    assert tracked == AttitudeReference(Vec3(0.1, 0.2, 0.3), ZERO, ZERO)
-    assert memory == CommandFilterState(ZERO, ZERO)
-
-
 def test_the_settings_pick_the_types():
     k = paper_controller(attitude_reference_derivatives="filtered", filter_bandwidth=20.0, euler_rates="body")
     assert isinstance(k.derivatives, CommandFilter)
     assert isinstance(k.rates, BodyRates)
     assert k.derivatives.bandwidth == 20.0
     assert k.feedforward == 0.0
-
-
-def test_at_rest_on_its_reference_the_vehicle_gets_its_weight_and_no_moment():
-    state = State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO)
-    reference = Reference(Trajectory(ZERO, ZERO, ZERO), 0.0)
-    command, _ = control(
-        K, assemble(tl.load_mission("paper")).model.flight_state.memory.controller, Measured(state, ZERO), reference
-    )
-    assert command.wrench.thrust == pytest.approx(3.5 * GRAVITY)
-    assert command.wrench.moment == ZERO
-    assert sliding_surface(K.position, ZERO, ZERO) == ZERO

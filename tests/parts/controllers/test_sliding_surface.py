@@ -18,11 +18,9 @@ from tandemlift.parts.controllers.sliding_surface import (
     Surface,
     Tanh,
     equivalent_control,
-    power_slope,
     reaching_control,
     saturate,
     sign,
-    signed_power,
     sliding_surface,
     surface_rate,
     surface_slope,
@@ -33,7 +31,7 @@ from tandemlift.parts.controllers.sliding_surface import (
 )
 from tandemlift.parts.mechanics.rigid_body import RigidBody
 
-EXPONENTS = [1.0, 1.5, 2.0, 3.0, 5.0]
+EXPONENTS = [1.0, 1.5, 3.0]
 XI, ETA = Vec3(4.0, 2.0, 11.0), Vec3(0.2, 0.1, 0.7)
 L1, L2 = Vec3(0.2, 0.1, 2.0), Vec3(2.0, 1.0, 3.0)
 
@@ -78,13 +76,6 @@ def test_every_switching_is_odd_bounded_and_never_against_the_sign(S):
         assert np.all(value * array(S) >= 0.0)
 
 
-@given(vectors())
-def test_thinner_layers_tend_to_the_sign(S):
-    far = np.abs(array(S)) > 1e-3
-    for kind in (Saturation(Vec3(1e5, 1e5, 1e5)), Tanh(Vec3(1e5, 1e5, 1e5))):
-        assert array(switching(kind, S))[far] == pytest.approx(np.sign(array(S))[far])
-
-
 @pytest.mark.parametrize("a", EXPONENTS)
 @given(e=vectors())
 def test_the_terminal_term_is_the_signed_power(a, e):
@@ -96,13 +87,7 @@ def test_the_terminal_term_is_the_signed_power(a, e):
         assert array(terminal_slope(kind, e)) == pytest.approx(slope, rel=1e-13, abs=2e-150)
 
 
-@pytest.mark.parametrize("a", EXPONENTS)
-def test_the_terminal_term_vanishes_at_zero_and_has_the_slope_of_its_exponent_there(a):
-    assert signed_power(0.0, a) == 0.0
-    assert power_slope(0.0, a) == pytest.approx(1.0 if a == 1.0 else 0.0, abs=1e-140)
-
-
-@pytest.mark.parametrize("a", [*EXPONENTS, "cubic"])
+@pytest.mark.parametrize("a", [1.5, "cubic"])
 def test_the_surface_changes_along_a_trajectory_at_the_surface_rate(a, jax):
     """Ṡ by automatic differentiation of S along e(t)."""
     k = surface(Cubic() if a == "cubic" else power_of(a))

@@ -66,16 +66,6 @@ def test_of_a_push_there_stays_what_was_confirmed_lately_in_its_direction(push, 
     assert given_up_slowly(push, left, lately) == pytest.approx(kept)
 
 
-@pytest.mark.parametrize(("trusted", "armed"), [(1.0, 0.0), (0.0, 1.0)])
-def test_a_push_before_the_tare_or_of_joints_that_disagree_is_not_used(trusted, armed):
-    force = Vec3(1.0, 2.0, 3.0)
-    push = PushEstimate(*[force] * 4, 0.0, 1.0, 0.0, trusted, armed, force)
-    imu = ImuReading(*[None] * len(ImuReading._fields))._replace(frame=Quat(1.0, 0.0, 0.0, 0.0))
-    rest = withheld(push, imu, ZERO, 0.0, 1.0, 0.0)
-    assert rest.usable == ZERO
-    assert rest.force == push.force
-
-
 def test_a_motion_sample_of_the_past_has_no_innovation_where_the_estimate_passed():
     """A constant acceleration and turning about z: the sample is of `age` before, by the kinematics of each."""
     age, p, v, a, w = 0.08, np.array([1.0, 2.0, 3.0]), np.array([0.5, -0.4, 0.3]), np.array([2.0, 1.0, -3.0]), 0.7
@@ -126,7 +116,9 @@ def test_what_is_not_confirmed_is_taken_from_force_and_moment_unless_a_contact_e
         assert found == pytest.approx((0.1, 0.2, 0.3 - left * 0.08))
     assert np.array(rest.withheld) == pytest.approx(less)
     assert rest.refuted == left
-    assert withheld(push._replace(trusted=0.0), imu, ZERO, 0.0, applies, 0.0).usable == vec3([0.0] * 3)
+    for doubtful in (push._replace(trusted=0.0), push._replace(armed=0.0)):
+        unused = withheld(doubtful, imu, ZERO, 0.0, applies, 0.0)
+        assert (unused.usable, unused.force) == (ZERO, force)
 
 
 PAIR = each(2)
@@ -166,12 +158,3 @@ def test_without_identification_the_mass_is_the_nominal_one_and_before_its_end_t
     early = tared(armed=0.0)
     assert (early.mass, early.force, early.moment) == (2.0, ZERO, ZERO)
     assert not np.array(early.sides).any()
-
-
-def test_a_sum_that_was_begun_too_early_is_forgotten():
-    sums = NONE
-    for begun in (1.0, 0.0, 1.0):
-        sums = summed(sums, begun, begun, vec3(FORCE[0]), vec3(SPECIFIC[0]), vec3(MOMENT[0]), NONE.sides)
-    assert sums.count == 1.0
-    assert sums.force == pytest.approx(FORCE[0])
-    assert (sums.weight, sums.square) == pytest.approx((FORCE[0] @ SPECIFIC[0], SPECIFIC[0] @ SPECIFIC[0]))

@@ -32,17 +32,15 @@ def reading(force, at):
 def told(force, at, rise, guards=NO_WALLS, beam=UNMATCHED):
     """(part, place on the beam) once a force has risen within a time [s] and stayed for 15 ms."""
     k, _ = start_contact_detection(ContactTable(model="on"), VEHICLE, DT, joints=False)
-    memory, share = (
-        start_evidence(k),
-        np.append(np.zeros(500), np.minimum(np.arange(1, 1e3 * rise + 16) * DT / rise, 1)),
-    )
+    memory = start_evidence(k)
+    share = np.append(np.zeros(500), np.minimum(np.arange(1, 1e3 * rise + 16) * DT / rise, 1))
     for s in share:
         memory, _ = heard(k, memory, Absent(), reading(np.array(force) * s, np.array(at)), 0.0, DT)
     return by_line_of_action(k.whole, 0.0, 0.0, k, memory, (guards, beam))
 
 
 @pytest.mark.parametrize("number", [1, 2])
-@pytest.mark.parametrize("direction", [[-1.0, 0.0], [0.6, 0.8], [0.6, -0.8], [0.0, 1.0]])
+@pytest.mark.parametrize("direction", [[-1.0, 0.0], [0.6, 0.8]])
 def test_a_guard_is_told_by_a_force_on_its_rim_towards_its_centre(number, direction):
     way = np.array([*direction, 0.0])
     inward = way if way[1] * GUARD[number - 1][1] <= 0.0 else way * [1.0, -1.0, 1.0]  # none reaches it from the beam
@@ -66,6 +64,5 @@ def test_a_hand_is_told_from_a_wall_by_its_rise_alone_and_less_is_enough_at_a_kn
     assert told([-20.0, 0.0, 0.0], at, rise=0.5, beam=known)[0] == 0.0
     walls = NO_WALLS._replace(matched=each(2)(1.0, 0.0))
     assert told([-20.0, 0.0, 0.0], GUARD[0] + np.array([RIM, 0.0, 0.0]), rise=0.25, guards=walls)[0] == 1.0
-    assert (
-        told([-20.0, 0.0, 0.0], GUARD[1] + np.array([RIM, 0.0, 0.0]), rise=0.25, guards=walls)[0] == 0.0
-    )  # the wall is elsewhere
+    elsewhere = told([-20.0, 0.0, 0.0], GUARD[1] + np.array([RIM, 0.0, 0.0]), rise=0.25, guards=walls)
+    assert elsewhere[0] == 0.0

@@ -100,7 +100,7 @@ def tumbling():
         turn = 0.5 * np.array([-q[1:] @ w, *(q[0] * w + np.cross(q[1:], w))])
         return [*v, *a, *turn, *((u - np.cross(w, J * w)) / J)]
 
-    times = H * np.arange(3001)
+    times = H * np.arange(2001)
     start = [0.0, 0.0, 0.0, 0.1, 0.2, 0.0, 1.0, 0.0, 0.0, 0.0, 0.1, -0.2, 0.3]
     rows = solve_ivp(rate, (0.0, times[-1]), start, t_eval=times, rtol=1e-9, atol=1e-9).y.T
     observations = []

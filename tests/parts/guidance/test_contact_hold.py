@@ -54,11 +54,6 @@ def lands_at(contact, seconds):
     return next((t for t, boundary in reacting(contact, seconds)[0] if boundary.land), None)
 
 
-def test_a_contact_longer_than_its_time_leads_to_a_landing():
-    assert lands_at(lambda t: WALL, 5.0) == pytest.approx(3.0, abs=2 * DT)
-    assert lands_at(lambda t: NO_CONTACT, 5.0) is None
-
-
 @pytest.mark.parametrize(("pause", "lands"), [(0.5, True), (2.8, False)])
 def test_time_without_a_contact_takes_back_the_time_in_contact(pause, lands):
     """Contacts of 1.6 s, each held for the recovery time longer; a pause beyond that takes back as much as it lasts."""

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from law_values import array, random_state, seeds
 from scipy.integrate import solve_ivp
 from scipy.signal import lsim, lti, welch
@@ -35,7 +35,6 @@ from tandemlift.parts.mechanics.low_pass import LowPassState
 from tandemlift.parts.mechanics.push import PointPush, PushSamples, push_moment
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.simulation.preparation.assemble import assemble
 
 DT = 0.001
 NOBODY = PointPush(ZERO, mat3([[0.0] * 3] * 3))
@@ -65,11 +64,12 @@ def shaken(rng: np.random.Generator) -> TremorNoise:
 
 
 @MODELS
+@settings(max_examples=30)
 @given(seed=seeds)
 def test_force_and_couple_never_exceed_their_bounds(model, seed):
     rng = np.random.default_rng(seed)
     person, memory, _ = company(model, max_force=3.0, max_couple=0.5, tremor=2.0, grip=0.3, start_time=0.0)
-    for k in range(30):
+    for k in range(10):
         state = random_state(rng)
         memory = memory._replace(view=person_view(person.grip, random_state(rng)))
         memory = memory._replace(place=LowPassState(vec3(rng.normal(size=3)), vec3(rng.normal(size=3))), begun=1.0)
@@ -97,17 +97,19 @@ def test_the_hand_gets_to_its_place_as_through_two_equal_lags():
 
 
 def test_tremor_has_its_size_and_nine_tenths_of_its_power_between_8_and_12_hertz():
-    k, memory, rows = tremor(0.05, DT), STILL, []
-    rng = np.random.default_rng(0)
-    for _ in range(60_000):
-        memory = tremor_step(k, memory, shaken(rng))
+    """Of ten hands at once, after the first second."""
+    k, memory, rows, rng = tremor(0.05, DT), STILL, [], np.random.default_rng(0)
+    for _ in range(7000):
+        noise = TremorNoise(*[Vec3(*rng.normal(size=(3, 10))) for _ in range(2)])
+        memory = tremor_step(k, memory, noise)
         rows.append(memory.second)
-    x = 0.05 * np.array(rows)
+    x = 0.05 * np.array(rows)[1000:]  # steps, axes, hands
     f, power = welch(x, fs=1.0 / DT, nperseg=4096, axis=0)
+    power = power.mean(axis=2)
     share = power[(f >= 8.0) & (f <= 12.0)].sum(axis=0) / power.sum(axis=0)
-    assert x.std(axis=0) == pytest.approx([0.05] * 3, rel=0.1)
+    assert x.std(axis=(0, 2)) == pytest.approx([0.05] * 3, rel=0.1)
     assert share == pytest.approx([0.9] * 3, abs=0.04)
-    assert np.abs(np.corrcoef(x.T) - np.eye(3)).max() < 0.1
+    assert np.abs(np.corrcoef(x.swapaxes(0, 1).reshape(3, -1)) - np.eye(3)).max() < 0.1
 
 
 def test_a_hand_that_holds_still_is_a_spring_and_a_damper_whatever_is_seen():
@@ -148,7 +150,7 @@ def test_the_path_is_gone_along_leg_by_leg_with_a_rest_where_it_is_asked_for():
     assert [array(leg.start)[:2].tolist() for leg in legs] == [[0.0, 0.0], [1.0, 0.0], [1.0, 2.0]]
     assert [leg.stops for leg in legs] == [0.0, 1.0, 1.0]
     since, z = {}, legs[0].end.z
-    for k in range(8000):
+    for k in range(6000):
         t = k * DT
         place = vec3([min(t, 1.0), np.clip(t - 1.0, 0.0, 2.0), z]) if t < 5.0 else Vec3(3.0, 2.0, z)
         if k % 16 == 0:
@@ -182,12 +184,6 @@ def test_what_is_seen_late_is_reckoned_ahead():
     assert np.abs(array(output.start.force)).max() < 0.02
 
 
-def test_a_mission_without_a_person_has_none():
-    model, given, tables, *_ = assemble(tl.load_mission("hover"))
-    assert model.person == model.flight_state.person == given.person == ()
-    assert len(tables.legs) == 0
-
-
 def test_two_hands_turn_the_beam_as_a_spring_and_a_damper_about_the_vertical():
     """The couple K (ψ_leg − ψ) − D ψ̇ at the predicted heading; the heading of this leg is 0."""
     person, memory, legs = company("two-hands", ((5.0, 0.0),), tremor=0.0, max_couple=1e3)
@@ -214,10 +210,7 @@ def test_behind_a_hand_that_goes_straight_the_centre_follows_a_tractrix(grip):
     assert places.centres == pytest.approx(expected, abs=2e-3)
     body_y = np.column_stack([-np.sin(places.headings), np.cos(places.headings)])
     assert places.centres + grip * body_y == pytest.approx(grips, abs=1e-9)
-
-
-def test_a_hand_at_the_centre_leaves_the_heading_open():
-    assert trailing(np.zeros((3, 2)), 0.0, 0.0) is None
+    assert trailing(grips, 0.0, 0.0) is None  # a hand at the centre leaves the heading open
 
 
 def test_a_heading_is_kept_and_another_is_reached_the_short_way_at_a_limited_rate():

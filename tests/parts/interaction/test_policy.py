@@ -1,6 +1,5 @@
 """The policy: its network against NumPy, what no weights can break, its flights, and bad input."""
 
-import itertools
 import math
 
 import numpy as np
@@ -8,7 +7,7 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.core.errors import InputError
-from tandemlift.core.vector import Absent, Vec3, dot, each
+from tandemlift.core.vector import Vec3, dot
 from tandemlift.parts.interaction.policy import (
     FORCE,
     INPUTS,
@@ -17,9 +16,7 @@ from tandemlift.parts.interaction.policy import (
     SMALL,
     SPEED,
     PolicyTable,
-    layer,
     policy_damping,
-    policy_inputs,
     start_policy,
 )
 from tandemlift.parts.mechanics.low_pass import LowPassState
@@ -79,12 +76,6 @@ def inputs_by_numpy(F, R, v):
     )
 
 
-def test_a_layer_is_that_of_numpy():
-    rng = np.random.default_rng(0)
-    W, x = rng.normal(size=(5, INPUTS + 1)), rng.normal(size=INPUTS)
-    assert layer(each(W.size)(*W.ravel()), tuple(x)) == pytest.approx(np.tanh(W[:, :-1] @ x + W[:, -1]), rel=1e-14)
-
-
 def test_factors_and_force_are_those_of_matrices():
     """The force is C v − D v with D = c₂ C + (c₁ − c₂) √C e eᵀ √C in the plane."""
     rng = np.random.default_rng(1)
@@ -111,18 +102,6 @@ def test_the_admittance_is_passive_whatever_the_weights_are(size):
             own = dot(Vec3(*DAMPING) * v, v)
             eased, _ = policy_damping(policy, push, v, 1.0)
             assert own / 4.0 * (1.0 - 1e-9) <= own - dot(eased, v) <= own * 4.0 * (1.0 + 1e-9)
-
-
-def test_what_is_rotated_or_mirrored_stays_alike():
-    rng = np.random.default_rng(3)
-
-    def turned(a, angle, mirror):
-        c, s = math.cos(angle), math.sin(angle)
-        return Vec3(c * a.x - s * a.y, mirror * (s * a.x + c * a.y), a.z)
-
-    for (push, v), angle, mirror in zip(samples(rng), rng.uniform(-3.0, 3.0, 200), itertools.cycle((1.0, -1.0))):
-        other = LowPassState(*(turned(a, angle, mirror) for a in push))
-        assert policy_inputs(other, turned(v, angle, mirror)) == pytest.approx(policy_inputs(push, v), abs=1e-10)
 
 
 def test_while_pushes_are_not_followed_the_damping_is_the_missions():
@@ -159,18 +138,14 @@ def test_the_factors_of_a_flight_are_those_of_its_push_and_motion():
 
 def test_flights_with_other_weights_fly_together_as_alone():
     rng = np.random.default_rng(6)
-    changes = [{**LED, "compliance.policy.weights": random_weights(rng)} for _ in range(5)]
+    changes = [{**LED, "compliance.policy.weights": random_weights(rng)} for _ in range(2)]
     missions = [tl.load_mission("zigzag", change) for change in changes]
     together = tl.fly_many(missions)
     for flight, mission in zip(together, missions, strict=True):
         alone = tl.fly(mission)
         for channel in ("position", "damping_factor_along", "damping_factor_across"):
             assert (flight[channel] == alone[channel]).all()
-    assert len({flight["position"][-1].tobytes() for flight in together}) == 5
-
-
-def test_no_policy_is_absent():
-    assert start_policy(PolicyTable(), DAMPING) == Absent()
+    assert not np.array_equal(together[0]["position"], together[1]["position"])
 
 
 @pytest.mark.parametrize(
@@ -188,8 +163,7 @@ def test_no_policy_is_absent():
     ids=str,
 )
 def test_bad_input_is_refused(changes, said):
+    name = "one-push" if "pilot.guidance" in changes else "iris"
     with pytest.raises(InputError) as refused:
-        tl.load_mission(
-            "one-push" if "pilot.guidance" in changes else "iris", {"compliance.policy.model": "network", **changes}
-        )
+        tl.load_mission(name, {"compliance.policy.model": "network", **changes})
     assert said in str(refused.value)

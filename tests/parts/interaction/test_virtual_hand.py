@@ -36,7 +36,7 @@ def pulls(target, body=lambda t: (0.0, 0.0), duration=4.0):
     return np.array(forces)
 
 
-@pytest.mark.parametrize("frequency", [0.3, 0.5, 1.0, 2.0, 3.0, 5.0, 8.0])
+@pytest.mark.parametrize("frequency", [0.3, 1.0, 8.0])
 def test_a_shaken_target_pulls_as_the_spring_does_less_what_the_low_pass_takes(frequency):
     size, angular = 0.05, 2.0 * math.pi * frequency
     force = pulls(lambda t: size * math.sin(angular * t), duration=8.0)[round(4.0 / DT) :]

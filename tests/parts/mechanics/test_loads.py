@@ -1,4 +1,4 @@
-"""Loads of the parts against NumPy: wrenches of rotors, wrenches on quadrotors carried to the joints, turbulent air."""
+"""Loads of the parts against NumPy: wrenches of rotors, wrenches on quadrotors carried to the joints; the whole box."""
 
 from dataclasses import replace
 
@@ -10,8 +10,6 @@ import tandemlift as tl
 from tandemlift.core.vector import Quat, Vec3, each, vec3
 from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.parts.mechanics.loads import PartLoad, PerfectReadings, quadrotor_wrenches, readings_with_load
-from tandemlift.parts.mechanics.rotation import world_z_in_body
-from tandemlift.parts.mechanics.turbulence import TurbulenceState, dryden, turbulence_velocity
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 TWO = each(2)
@@ -51,20 +49,6 @@ def test_a_force_on_a_quadrotor_loads_its_joint_by_the_force_and_its_moment_abou
     assert np.transpose(found.joint_torque) == pytest.approx(np.cross(at - joints, in_body))
 
 
-def test_the_worlds_z_axis_in_body_axes_is_that_of_scipy():
-    for attitude in Rotation.random(20, random_state=1):
-        found = world_z_in_body(Quat(*attitude.as_quat(scalar_first=True).tolist()))
-        assert np.array(found) == pytest.approx(attitude.inv().apply([0.0, 0.0, 1.0]))
-
-
-def test_turbulent_air_moves_along_across_and_up_by_its_components():
-    d = dryden(7.7, 5.0, 3.0, (2.0, 1.0, 0.0), 0.001)
-    air = np.array(turbulence_velocity(d, TurbulenceState(0.7, -1.1, 0.0, 0.4, 0.0)))
-    for direction, component in ((d.along, 0.7), (d.across, -1.1), (d.up, 0.4)):
-        assert air @ np.array(direction) == pytest.approx(component * np.array(direction) @ np.array(direction))
-    assert np.array(d.along) @ np.array(d.across) == pytest.approx(0.0, abs=1e-12)
-
-
 def test_the_box_of_all_parts_ends_at_the_highest_rotor_and_at_the_lowest_foot():
     low, high = VEHICLE.box
     tops = [z + q.rotor_height for q, (_, _, z) in zip(VEHICLE.quadrotors, VEHICLE.lever_arms, strict=True)]
@@ -72,10 +56,19 @@ def test_the_box_of_all_parts_ends_at_the_highest_rotor_and_at_the_lowest_foot()
     assert (low[2], high[2]) == (pytest.approx(min(soles)), pytest.approx(max(tops)))
 
 
-def test_the_box_of_a_vehicle_without_a_beam_is_that_of_its_quadrotors():
+def test_the_box_of_a_vehicle_without_a_beam_is_that_of_the_quadrotors():
     point = VEHICLE.payload.model_copy(update={"length": None, "radius": None})
     alone = replace(VEHICLE, payload=point)
     assert alone.beam is None
     low, high = alone.box
     wide = max(np.hypot(*r) + q.rotor_radius for q in VEHICLE.quadrotors for r in q.rotors)
     assert (low[0], high[0]) == pytest.approx((-wide, wide), rel=0.2)
+
+
+def test_the_box_of_all_parts_holds_the_whole_beam_wherever_the_quadrotors_stand():
+    length, radius = VEHICLE.beam
+    inner = [q.model_copy(update={"position": (0.0, 0.2 * q.position[1], q.position[2])}) for q in VEHICLE.quadrotors]
+    low, high = replace(VEHICLE, quadrotors=tuple(inner)).box
+    assert (low[1], high[1]) == (pytest.approx(-0.5 * length), pytest.approx(0.5 * length))
+    assert low[0] < -radius < radius < high[0]
+    assert VEHICLE.beside([0.0, -0.5 * length, 0.0]) == 0.0

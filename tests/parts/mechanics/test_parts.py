@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -12,9 +10,8 @@ from law_values import array, free_body, quadrotor, random_state, random_vehicle
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-import tandemlift as tl
 from tandemlift.core.types import GRAVITY
-from tandemlift.core.vector import ZERO, Vec3, vec3
+from tandemlift.core.vector import ZERO, vec3
 from tandemlift.parts.mechanics.parts import (
     Acceleration,
     Joint,
@@ -32,6 +29,7 @@ from tandemlift.parts.mechanics.vehicle import Vehicle, mixer
 
 NO_PUSH = CentralPush(ZERO)
 WEIGHT = np.array([0.0, 0.0, GRAVITY])
+counts = st.integers(1, 4)  # of quadrotors
 ROOT = 0.5**0.5
 PLACES = {  # of rotors 1 to 4, in arms
     "+": [(1, 0), (0, 1), (-1, 0), (0, -1)],
@@ -50,16 +48,6 @@ def test_the_mixer_sums_the_rotors_forces_lever_arms_and_reaction_torques(layout
         moment += np.cross([q.arm * x, q.arm * y, 0.0], push)
         moment[2] += spin * q.torque_per_thrust * f
     assert mixer(q) @ thrusts == pytest.approx(np.append(force[2], moment), abs=1e-14)
-
-
-def test_the_box_of_all_parts_holds_the_whole_beam_wherever_the_quadrotors_stand():
-    vehicle = Vehicle.from_settings(tl.load_mission("iris").vehicle)
-    length, radius = vehicle.beam
-    inner = [q.model_copy(update={"position": (0.0, 0.2 * q.position[1], q.position[2])}) for q in vehicle.quadrotors]
-    low, high = replace(vehicle, quadrotors=tuple(inner)).box
-    assert (low[1], high[1]) == (pytest.approx(-0.5 * length), pytest.approx(0.5 * length))
-    assert low[0] < -radius < radius < high[0]
-    assert vehicle.beside([0.0, -0.5 * length, 0.0]) == 0.0
 
 
 @pytest.mark.parametrize("layout", ["+", "x"])
@@ -115,8 +103,7 @@ class Assembly:
         )
 
 
-@pytest.mark.parametrize("count", [1, 2, 3, 4])
-@given(seed=seeds)
+@given(counts, seeds)
 def test_the_vehicle_is_the_sum_of_its_parts(count, seed):
     """Newton and Euler of every part, with joint forces, give the acceleration of the one composite body."""
     a = Assembly(seed, count)
@@ -126,8 +113,7 @@ def test_the_vehicle_is_the_sum_of_its_parts(count, seed):
     assert angular < 1e-12
 
 
-@pytest.mark.parametrize("count", [1, 2, 3, 4])
-@given(seed=seeds)
+@given(counts, seeds)
 def test_the_payload_and_the_quadrotors_accelerate_as_their_joints_demand(count, seed):
     a = Assembly(seed, count)
     on_payload = [
@@ -149,21 +135,6 @@ def test_a_joint_force_in_world_axes_crossed_with_a_body_vector_does_not_balance
     """Erratum trans_rot_payload_equ: d × F without Rᵀ leaves a moment unbalanced."""
     printed = [Assembly(seed, 2).payload_residual(np.cross)[1] for seed in range(50)]
     assert np.median(printed) == pytest.approx(1.1, abs=0.2)
-
-
-def test_a_single_quadrotor_in_free_fall_bears_no_force():
-    state = random_state(np.random.default_rng(1))._replace(rates=ZERO)
-    joint = joint_wrench(
-        1.5,
-        Vec3(0.03, 0.03, 0.05),
-        body_z_axis(state.attitude),
-        0.0,
-        ZERO,
-        ZERO,
-        Acceleration(Vec3(0.0, 0.0, -GRAVITY), ZERO),
-    )
-    assert array(joint.force) == pytest.approx(np.zeros(3), abs=1e-15)
-    assert array(joint.couple) == pytest.approx(np.zeros(3), abs=1e-15)
 
 
 class Tumble:
@@ -214,8 +185,3 @@ def test_lever_arms_in_body_axes_must_be_turned_into_world_axes():
     printed = np.cross(array(tumble.state.rates), tumble.d)
     assert np.linalg.norm(printed - right) / np.linalg.norm(right) == pytest.approx(1.934, abs=1e-3)
     assert np.linalg.norm(printed) == pytest.approx(np.linalg.norm(right))
-
-
-def test_a_random_vehicle_has_a_full_inertia_tensor():
-    J = random_vehicle(np.random.default_rng(0), 3).inertia
-    assert np.abs(J[np.triu_indices(3, 1)]).min() > 0.01

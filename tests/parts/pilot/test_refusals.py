@@ -4,13 +4,9 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.compiler.machine_code.functions import compiled
-from tandemlift.core.faults import CHECKS, FAULTS
+from tandemlift.core.faults import FAULTS
 from tandemlift.core.refusals import REASONS, REQUESTS, refusal_of
-from tandemlift.core.types import flat, unflat
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.pilot.refusals import refusal_numbers
-from tandemlift.simulation.preparation.pilot_sampling import PilotData
 
 BY_HAND = {"pilot.guidance": "interactive", "phases.rotors": "flight", "ground.model": "floor"}
 SUPERVISED = BY_HAND | {"supervision.model": "on", "phases.lift_start": 1e6, "phases.land_start": 2e6}
@@ -48,11 +44,6 @@ def test_every_reason_and_every_advice_is_a_sentence_without_a_place_that_is_lef
             assert "{" not in str(refusal)
             assert "  " not in str(refusal)
     assert refusal_of("lift", 0, 0.0, 0.0) is None
-
-
-def test_the_first_reasons_are_the_checks():
-    assert [reason.key for reason in REASONS[: len(CHECKS)]] == [check.key for check in CHECKS]
-    assert len({reason.key for reason in REASONS}) == len(REASONS)
 
 
 def test_a_pilot_that_is_guided_by_the_clock_takes_no_requests():
@@ -141,16 +132,6 @@ def test_a_state_that_is_not_a_number_is_named_as_the_fault_of_a_sensor():
     lift = sampled(one, 0.5).lift
     assert "the last fault is over for 0.5 s only, of 1 s" in lift.why
     assert sampled(one, 1.0).lift is None
-
-
-def test_as_machine_code_the_law_gives_the_same_numbers():
-    one = pilot()
-    for state in (LEVEL, moving(at3=[0.3, 0.4, 0.0]), moving(at6=[np.cos(0.2), np.sin(0.2), 0.0, 0.0])):
-        sampled(one, 0.01, state)
-        data: PilotData = unflat(one._numbers, one._start)
-        given = (data.parameters.guidance, data.memory.guidance, 0.5)
-        found = compiled(refusal_numbers, *given)(np.array([[*flat(given[0]), *flat(given[1]), 0.5]]))
-        np.testing.assert_allclose(found[0], flat(refusal_numbers(*given)), atol=1e-12)
 
 
 def test_a_simulation_says_it_too():

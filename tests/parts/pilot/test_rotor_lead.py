@@ -39,22 +39,6 @@ def test_the_lead_of_each_component_has_the_response_of_its_transfer_function():
         assert found[:, i] == pytest.approx(expected, abs=1e-9 * w)
 
 
-def test_the_lag_of_a_rotor_is_cancelled_by_a_lead_time_as_long():
-    """A rotor of lag T behind the lead (T, ω) gives the step response of the low-pass, 1 − (1 + ωt) e^(−ωt)."""
-    time, w = 0.02, 150.0
-    commanded = led(AllocationTable(lead=time, lead_bandwidth=w), np.ones((200, 4)).tolist())[:, 0]
-    fine = 50  # the low-pass of a held step is known at samples only: the rotor follows what is between by a chord
-    u = np.interp(np.arange(200 * fine) / fine, np.arange(200) + 1.0, commanded, left=np.nan)
-    t = H * np.arange(200 * fine) / fine
-    exact = 1.0 + ((w * time - 1.0) * w * t - 1.0) * np.exp(-w * t)
-    u = np.where(np.isnan(u), exact, u)
-    thrust = np.zeros(len(t))
-    decay = np.exp(-H / fine / time)
-    for k in range(len(t) - 1):
-        thrust[k + 1] = u[k] + (thrust[k] - u[k]) * decay
-    assert thrust == pytest.approx(1.0 - (1.0 + w * t) * np.exp(-w * t), abs=5e-3)
-
-
 def test_a_steady_wrench_passes_as_it_is_from_a_hover_on():
     found = led(TABLE, [[34.0, 0.0, 0.0, 0.0]] * 50, weight=34.0)
     assert found == pytest.approx(np.tile([34.0, 0.0, 0.0, 0.0], (50, 1)), abs=1e-12)

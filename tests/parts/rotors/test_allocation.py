@@ -15,7 +15,6 @@ from scipy.optimize import minimize
 
 from tandemlift.core.errors import InputError
 from tandemlift.core.vector import each, vec3
-from tandemlift.missions import load_mission
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import (
@@ -24,7 +23,6 @@ from tandemlift.parts.rotors.allocation import (
     Mixer,
     achieved_fraction,
     allocate,
-    command_for,
     limits_at,
     mixer_from,
     outside_limits,
@@ -34,10 +32,8 @@ from tandemlift.parts.rotors.allocation import (
 )
 from tandemlift.parts.rotors.rotor_faults import RotorFaults
 from tandemlift.parts.rotors.thrust_limit_solver import feasible
-from tandemlift.simulation.preparation.start_pilot import start_pilot
 
 counts = st.integers(1, 4)
-ONE = ((1.0, 1.0, 1.0, 1.0),)
 
 
 def random_case(seed: int, count: int) -> tuple[np.random.Generator, Vehicle, np.ndarray, np.ndarray]:
@@ -45,13 +41,6 @@ def random_case(seed: int, count: int) -> tuple[np.random.Generator, Vehicle, np
     rng = np.random.default_rng(seed)
     v = random_vehicle(rng, count)
     return rng, v, np.exp(rng.uniform(-2.0, 2.0, (count, 4))), rng.standard_normal(4) * [30.0, 3.0, 3.0, 1.0]
-
-
-@given(counts, seeds)
-def test_the_quadrotors_inputs_make_the_wrench(count, seed):
-    _, v, weights, wanted = random_case(seed, count)
-    assert v.B @ v.pseudo_inverse(weights) @ wanted == pytest.approx(wanted, abs=1e-11)
-    assert v.effect @ v.allocation(weights) == pytest.approx(np.eye(4), abs=1e-11)
 
 
 @given(counts, seeds)
@@ -114,23 +103,6 @@ def test_the_laws_are_the_matrices(count, seed):
     assert [made.thrust, *made.moment] == pytest.approx(effect @ given_thrusts, abs=1e-12)
 
 
-def reachable(v: Vehicle, weights, axis: int) -> float:
-    """The largest moment about an axis at hover with every rotor within its limits."""
-    A = v.allocation(weights)
-    hover, slope = A[:, 0] * v.weight, A[:, axis]
-    limit = v.quadrotors[0].thrust_limit
-    slope = np.where(np.abs(slope) < 1e-12, 1e-12, slope)
-    return float(np.min(np.where(slope > 0.0, (limit - hover) / slope, -hover / slope)))
-
-
-def test_roll_is_within_reach_only_if_the_quadrotors_share_it_by_their_thrusts():
-    v = paper_vehicle()
-    assert reachable(v, ONE, 1) == pytest.approx(4.9, abs=0.05)
-    assert reachable(v, ((1.0, 100.0, 1.0, 1.0),), 1) == pytest.approx(20.8, abs=0.05)
-    assert reachable(v, ONE, 2) == pytest.approx(2.8, abs=0.05)
-    assert reachable(v, ONE, 3) == pytest.approx(1.33, abs=0.005)
-
-
 def constrained(limits, times, efficiency) -> ConstrainedAllocation:
     """Allocation within limits [N] for rotors whose faults the pilot knows from certain times [s] on."""
     cls = each(len(limits))
@@ -159,27 +131,6 @@ def test_a_thrust_is_beyond_its_limits_below_zero_and_above_the_most_only():
     assert [outside_limits(f, 7.0) for f in (-1e-12, 0.0, 3.0, 7.0, 7.0 + 1e-12)] == [1.0, 0.0, 0.0, 0.0, 1.0]
 
 
-@pytest.mark.parametrize("method", ["pseudo-inverse", "constrained"])
-def test_the_pilot_of_the_real_iris_allocates_what_makes_the_wrench(method):
-    mission = load_mission("iris", {"observer.model": "none", "allocation.method": method})
-    vehicle = Vehicle.from_settings(mission.vehicle)
-    pilot, _ = start_pilot(mission, vehicle)
-    wanted = np.array([34.0, 1.0, -0.2, 0.3])
-    thrusts = np.array(allocate(pilot.allocation, Wrench(float(wanted[0]), vec3(wanted[1:]))))
-    total, moment = 0.0, np.zeros(3)
-    for q, own in zip(vehicle.quadrotors, thrusts.reshape(2, 4), strict=True):
-        for (x, y), spin, f in zip(q.rotor_positions, q.spins, own, strict=True):
-            total += f
-            moment += np.cross(np.add(q.position, [x, y, 0.0]), [0.0, 0.0, f])
-            moment[2] += 0.06 * spin * f
-    assert [total, *moment] == pytest.approx(wanted, abs=1e-12)
-    assert np.all((thrusts > 0.0) & (thrusts < vehicle.quadrotors[0].thrust_limit))
-
-
-def test_a_failed_rotor_is_commanded_nothing_whatever_it_is_allotted():
-    assert [command_for(3.0, efficiency) for efficiency in (1.0, 0.5, 0.0)] == [3.0, 6.0, 0.0]
-
-
 FOUR = each(4)
 
 
@@ -200,7 +151,7 @@ def share(c: Craft, wanted: Any, f: Any) -> float:
 @EVERY
 def test_a_part_of_a_wrench_is_that_share_of_it(count, layout):
     c = craft(count, layout)
-    for p in problems(c, 20, seed=10):
+    for p in problems(c, 5, seed=10):
         for part, wanted_share in ((0.0, 0.0), (0.25, 0.25), (1.0, 1.0), (1.5, 0.5), (-1.0, 0.0), (3.0, 0.0)):
             assert share(c, p.wanted, part * p.unlimited) == pytest.approx(wanted_share, abs=1e-9)
 
@@ -208,7 +159,7 @@ def test_a_part_of_a_wrench_is_that_share_of_it(count, layout):
 @EVERY
 def test_the_share_given_is_whole_within_the_limits_and_a_part_beyond(count, layout):
     c = craft(count, layout)
-    for p in problems(c, 200, seed=11):
+    for p in problems(c, 50, seed=11):
         found = share(c, p.wanted, solve(c, p).f)
         assert 0.0 <= found <= 1.0
         if not outside(p):

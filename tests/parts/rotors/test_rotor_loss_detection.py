@@ -1,7 +1,5 @@
 """A lost rotor is found in the motion of a vehicle that SciPy integrates, and named by its number."""
 
-from typing import NamedTuple
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -39,14 +37,8 @@ LAG, DELAY = 0.018, 0.01  # s, as the detection believes them to be
 NOISE = np.array([0.01, 0.01, 0.01, 0.01])  # m/s, rad/s
 
 
-class Motion(NamedTuple):
-    """Climb [m/s] and rates [rad/s] of the vehicle, samples × 4."""
-
-    rows: np.ndarray
-
-
 def moved(share, wind, seed):
-    """Linear motion of the vehicle whose rotors give a share (T × 8) of hover, under an unknown wrench (T × 4)."""
+    """Climb [m/s] and rates [rad/s] (T × 4), linear: rotors give a share (T × 8) of hover, wind a wrench (T × 4)."""
     t = np.arange(len(share)) * DT
     per_inertia = np.zeros((4, 4))
     per_inertia[0, 0], per_inertia[1:, 1:] = 1.0 / VEHICLE.mass, np.linalg.inv(VEHICLE.inertia)
@@ -93,7 +85,7 @@ def lost(rotor, gone, at, count):
     return share
 
 
-@pytest.mark.parametrize("rotor", range(8))
+@pytest.mark.parametrize("rotor", [0, 3, 6])
 def test_a_rotor_that_stops_is_named_within_80_ms_and_stays_named(rotor):
     motion = moved(lost(rotor, 1.0, 100, 250), np.zeros((250, 4)), rotor)  # beyond, rates are no longer linear
     seen, memory = watched(motion, SETTLED)
@@ -127,22 +119,17 @@ def named(rotor, at):
 
 
 def test_a_rotor_that_was_named_but_turns_on_trial_is_restored():
-    assert watched(moved(np.ones((400, 8)), np.zeros((400, 4)), 3), named(4, 0.0))[0] == [(0.0, 5), (check_seen(4), 0)]
-
-
-def check_seen(rotor):
-    """When a rotor is restored that never stopped."""
-    seen, _ = watched(moved(np.ones((400, 8)), np.zeros((400, 4)), 3), named(rotor, 0.0))
+    seen, _ = watched(moved(np.ones((400, 8)), np.zeros((400, 4)), 3), named(4, 0.0))
+    assert [number for _, number in seen] == [5, 0]
     assert 0.01 < seen[1][0] < 0.1
-    return seen[1][0]
 
 
 def test_another_rotor_that_explains_the_motion_better_is_named_instead():
     motion = moved(lost(2, 1.0, 100, 260), np.zeros((260, 4)), 4)
-    (_, right), memory = watched(motion[:170], SETTLED)[0][0], watched(motion[:170], SETTLED)[1]
+    found, memory = watched(motion[:170], SETTLED)
     wrong = memory._replace(verdict=named(0, 0.17).verdict)
     seen, _ = watched(motion[170:], wrong, 170)
-    assert right == 3
+    assert [number for _, number in found] == [3]
     assert [number for _, number in seen] == [1, 3]
     assert seen[1][0] < 0.22
 
@@ -171,13 +158,6 @@ def test_a_vehicle_that_stands_on_something_is_not_watched():
     assert watched(motion, SETTLED)[0] == []
 
 
-def test_without_detection_nothing_is_left_out_or_tried():
-    commands = EIGHT(*range(8))
-    assert left_of(Absent(), Absent()) == 1.0
-    assert with_trials(Absent(), Absent(), commands, 0.0) is commands
-    assert detection_step(Absent(), Absent(), None, commands, 1.0, 0.0, DT) == Absent()
-
-
 def unexplained(attitude, climb, rates, thrust, seconds=0.3):
     """The residual of a vehicle with an attitude (3 angles), climb(t) [m/s] and rates(t), each rotor at a thrust(t)."""
     q, memory = Quat(*Rotation.from_euler("ZXY", attitude).as_quat(scalar_first=True).tolist()), SETTLED
@@ -188,11 +168,10 @@ def unexplained(attitude, climb, rates, thrust, seconds=0.3):
     return np.array(residual(DETECTION, memory, pilot_input))
 
 
-@pytest.mark.parametrize("attitude", [(0.0, 0.0, 0.0), (1.0, 0.5, 0.0), (-2.0, 0.3, -0.7), (0.4, 0.0, 1.1)])
-@pytest.mark.parametrize("missing", [0.0, 0.2])
-def test_on_a_tilted_vehicle_what_thrust_is_missing_along_its_own_axis_is_what_is_not_explained(attitude, missing):
+def test_on_a_tilted_vehicle_what_thrust_is_missing_along_its_own_axis_is_what_is_not_explained():
     """Newton's law along the vertical: m a = T cos(tilt) − m g, with the tilt from SciPy."""
-    cosine, up = Rotation.from_euler("ZXY", attitude).as_matrix()[2, 2], 1.5
+    attitude, missing, up = (-2.0, 0.3, -0.7), 0.2, 1.5
+    cosine = Rotation.from_euler("ZXY", attitude).as_matrix()[2, 2]
     needed = VEHICLE.mass * (GRAVITY + up) / cosine
     off = unexplained(attitude, lambda t: up * t, lambda t: (0.0, 0.0, 0.0), lambda t: needed / (1.0 - missing) / 8.0)
     assert off[0] == pytest.approx(-needed * missing / (1.0 - missing), abs=1e-3 * needed)
@@ -213,7 +192,7 @@ def test_a_vehicle_that_tumbles_freely_explains_its_turning_by_its_own_momentum(
     assert np.abs(off[1:]).max() < 0.02 * gyroscopic
 
 
-@pytest.mark.parametrize("rotor", range(8))
+@pytest.mark.parametrize("rotor", [0, 3, 6])
 def test_what_a_lost_rotor_explains_is_its_column_of_the_effect(rotor):
     verdict = named(rotor, 0.0).verdict
     thrusts = np.linspace(3.0, 5.0, 8)

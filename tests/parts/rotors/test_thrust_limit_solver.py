@@ -18,7 +18,6 @@ from bounded_problems import (
     cost,
     craft,
     craft_of,
-    outside,
     problem,
     problems,
     set_of,
@@ -35,7 +34,7 @@ from tandemlift.simulation.preparation.memory import aligned
 @EVERY
 def test_scipy_finds_the_same_thrusts(count, layout):
     c = craft(count, layout)
-    for p in problems(c, 400, seed=1):
+    for p in problems(c, 100, seed=1):
         assert solve(c, p).f == pytest.approx(bounded_least_squares(c, p), abs=1e-6)
 
 
@@ -43,7 +42,7 @@ def test_scipy_finds_the_same_thrusts(count, layout):
 def test_any_start_ends_at_the_same_thrusts(count, layout):
     c, rng = craft(count, layout), np.random.default_rng(3)
     n = c.B.shape[1]
-    for p in problems(c, 300, seed=3):
+    for p in problems(c, 60, seed=3):
         anywhere = Answer(rng.uniform(-5.0, 15.0, n), rng.integers(-1, 2, n).astype(float), 0)
         assert solve(c, p, anywhere).f == pytest.approx(solve(c, p).f, abs=1e-6)
 
@@ -51,23 +50,14 @@ def test_any_start_ends_at_the_same_thrusts(count, layout):
 @EVERY
 def test_a_solution_is_found_again_in_two_steps_at_most(count, layout):
     c = craft(count, layout)
-    for p in problems(c, 300, seed=4):
+    for p in problems(c, 60, seed=4):
         first = solve(c, p)
         again = solve(c, p, first)
         assert again.steps <= 2
         assert np.array_equal(again.active, first.active)
 
 
-@EVERY
-def test_what_the_rotors_can_do_is_left_to_the_pseudo_inverse(count, layout):
-    c, rng = craft(count, layout), np.random.default_rng(5)
-    for _ in range(300):
-        p = problem(c, [c.vehicle.weight * rng.uniform(0.8, 1.2), *rng.uniform(-0.3, 0.3, 2), rng.uniform(-0.05, 0.05)])
-        assert not outside(p)
-        assert solve(c, p).f == pytest.approx(p.unlimited, abs=1e-9)
-
-
-@pytest.mark.parametrize("count", [1, 2, 3, 4, 16, 64])
+@pytest.mark.parametrize("count", [1, 3, 16, 64])
 def test_any_vehicle_is_solved_before_the_bound(count):
     rng = np.random.default_rng(count)
     for _ in range({16: 4, 64: 1}.get(count, 20)):
@@ -81,7 +71,7 @@ def test_any_vehicle_is_solved_before_the_bound(count):
 @EVERY
 def test_a_solution_cut_short_is_within_the_limits_and_costs_no_less(count, layout):
     c = craft(count, layout)
-    for p in problems(c, 60, seed=7):
+    for p in problems(c, 15, seed=7):
         best = cost(c, p, solve(c, p).f)
         for most in range(1, 9):
             assert cost(c, p, solve(c, p, most=most).f) >= best * (1.0 - 1e-9) - 1e-9
@@ -93,7 +83,7 @@ def test_rotors_at_one_place_share_alike():
     B = np.hstack([c.B, c.B])
     weights = weights_of(B, PRIORITIES)
     double = Craft(c.vehicle, B, np.vstack([c.inverse, c.inverse]) / 2.0, weights, weighted_rows(B, weights))
-    for p in problems(double, 300, seed=8):
+    for p in problems(double, 60, seed=8):
         p = p._replace(limits=np.full(8, LIMIT))
         found = solve(double, p)
         assert found.f[:4] == pytest.approx(found.f[4:], abs=1e-7)
@@ -103,35 +93,7 @@ def test_rotors_at_one_place_share_alike():
 # What is given up
 
 
-@EVERY
-def test_a_yaw_moment_out_of_reach_costs_no_roll_no_pitch_and_little_thrust(count, layout):
-    c = craft(count, layout)
-    wanted = np.array([c.vehicle.weight, 0.2, 0.1, 10.0])
-    given = c.B @ solve(c, problem(c, wanted)).f
-    assert given[3] < 5.0
-    assert given[1:3] == pytest.approx(wanted[1:3], abs=2e-4)
-    assert given[0] == pytest.approx(wanted[0], rel=0.01)
-
-
-@EVERY
-@pytest.mark.parametrize("thrust", [500.0, -50.0])
-def test_a_thrust_out_of_reach_leaves_roll_and_pitch(count, layout, thrust):
-    c = craft(count, layout)
-    wanted = np.array([thrust, 0.5, 0.3, 0.0])
-    given = c.B @ solve(c, problem(c, wanted)).f
-    assert abs(given[0] - thrust) > 50.0
-    assert given[1:3] == pytest.approx(wanted[1:3], abs=0.002 * abs(given[0] - thrust))
-
-
-@pytest.mark.parametrize("count", [1, 2, 4])
-@pytest.mark.parametrize("layout", ["+", "x"])
-def test_rotors_that_balance_all_run_at_the_limit_that_a_thrust_is_beyond(count, layout):
-    c = craft(count, layout)
-    assert np.all(solve(c, problem(c, [1e3, 0.0, 0.0, 0.0])).f == LIMIT)
-    assert np.all(solve(c, problem(c, [-1e3, 0.0, 0.0, 0.0])).f == 0.0)
-
-
-@pytest.mark.parametrize(("layout", "lost"), [(layout, rotor) for layout in ("+", "x") for rotor in range(8)])
+@pytest.mark.parametrize(("layout", "lost"), [("+", 0), ("+", 1), ("+", 6), ("x", 3)])
 def test_with_a_rotor_lost_hover_keeps_the_yaw_that_a_linear_programme_finds(layout, lost):
     """Two quadrotors hover level without any one rotor; on "+" with a rotor gone on the x axis they must turn."""
     c = craft(2, layout)
@@ -187,7 +149,7 @@ def test_whatever_is_asked_the_thrusts_are_numbers_within_the_limits(count, layo
 @EVERY
 def test_machine_code_and_plain_python_find_the_same(count, layout):
     c = craft(count, layout)
-    for p in problems(c, 40, seed=9):
+    for p in problems(c, 8, seed=9):
         found, plain = solve(c, p), solve(c, p, run=limited_thrusts)
         assert found.steps == plain.steps
         assert np.array_equal(found.f, plain.f)
@@ -200,7 +162,7 @@ def test_eight_different_problems_at_once_are_solved_as_each_alone(count, layout
     """Some end before others, and one has ended before it begins: it is left as it is."""
     c, rng = craft(count, layout), np.random.default_rng(10)
     n = c.B.shape[1]
-    for _ in range(20):
+    for _ in range(5):
         eight = list(problems(c, 8, seed=int(rng.integers(1 << 30))))
         alone, block = (code_of(asked(c, eight[0]), lanes, rolls_from) for lanes in (1, 8))
         starts = [AllocationState(set_of(rng.integers(-1, 2, n)), set_of(rng.uniform(-5.0, 15.0, n))) for _ in eight]

@@ -9,18 +9,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from law_values import array, numbers, random_vec3, seeds, vectors
-from scipy import stats
 from scipy.spatial.transform import Rotation
 
 from tandemlift.core.vector import ZERO, Vec3, spread, vec3
 from tandemlift.parts.sensors.noise_bias_drift import SensorGrade, displayed, read, sensor_model
 
 SETS = spread(np.zeros((2, 3)))
-
-
-def samples(grade: SensorGrade, truth: Vec3, normals: np.ndarray) -> np.ndarray:
-    """Readings (3 × n) of a constant truth with normals (3 × n), without drift."""
-    return np.array(read(sensor_model(grade, 1e-3), ZERO, truth, Vec3(*normals)))
 
 
 @given(vectors())
@@ -30,27 +24,7 @@ def test_a_perfect_sensor_reads_every_bit(v):
     assert read(sensor_model(SensorGrade(), 1e-3, 2), SETS, of_sets, of_sets) == of_sets
 
 
-def test_noise_is_white_with_the_variance_that_is_claimed():
-    n, sigma = 20000, 0.05
-    off = samples(SensorGrade(noise=sigma), Vec3(1.0, -2.0, 3.0), np.random.default_rng(1).standard_normal((3, n)))
-    off -= [[1.0], [-2.0], [3.0]]
-    low, high = stats.chi2.ppf([1e-4, 1.0 - 1e-4], n)
-    for row in off:
-        assert low < np.sum(row**2) / sigma**2 < high
-        assert abs(np.mean(row)) < 4.0 * sigma / math.sqrt(n)
-        assert abs(np.corrcoef(row[1:], row[:-1])[0, 1]) < 4.0 / math.sqrt(n)
-
-
-@given(seeds)
-def test_bias_is_added_in_the_sensors_axes(seed):
-    rng = np.random.default_rng(seed)
-    v, bias = random_vec3(rng), rng.standard_normal(3)
-    assert array(read(sensor_model(SensorGrade(bias=bias), 1e-3), ZERO, v, ZERO)) == pytest.approx(
-        array(v) + bias, abs=1e-15
-    )
-
-
-@pytest.mark.parametrize(("noise", "drift"), [(0.05, 0.001), (0.05, 3.0), (0.0, 0.4), (0.2, 0.0)])
+@pytest.mark.parametrize(("noise", "drift"), [(0.05, 3.0), (0.0, 0.4), (0.2, 0.0)])
 def test_noise_and_drift_from_one_normal_are_as_noise_and_an_independent_walk(noise, drift):
     """All that two Gaussian processes can differ in is the covariance of their increments, here from the response to a
     single normal: 2σ² + w² at once, −σ² from one to the next, nothing beyond."""
@@ -84,16 +58,6 @@ def test_every_quadrotor_has_a_sensor_of_its_own():
         assert [c[i] for c in together] == list(read(alone, ZERO, vec3(truth[i]), ZERO))
 
 
-def test_the_error_of_quantisation_is_uniform_over_a_step():
-    step, x = 0.02, np.random.default_rng(4).uniform(-3.0, 3.0, 50000)
-    shown = displayed(x, math.inf, step, 1.0 / step)
-    error = (shown - x) / step
-    assert np.abs(error).max() <= 0.5 + 1e-9
-    assert np.var(error) == pytest.approx(1.0 / 12.0, rel=0.02)
-    assert stats.kstest(error + 0.5, "uniform").pvalue > 1e-3
-    assert np.abs(shown / step - np.round(shown / step)).max() < 1e-9
-
-
 @given(numbers(1e9), st.floats(0.0, 1.0, exclude_min=True, allow_subnormal=False))
 def test_whole_steps_are_rounded_half_to_even(x, step):
     per_step = 1.0 / step
@@ -101,14 +65,14 @@ def test_whole_steps_are_rounded_half_to_even(x, step):
         assert displayed(x, math.inf, step, per_step) == np.round(x * per_step) * step
 
 
-@pytest.mark.parametrize("x", [-2.5, -1.5, -0.5, 0.5, 1.5, 2.5])
-def test_half_steps_go_to_even_wherever_the_law_runs(x, jax, casadi):
+def test_half_steps_go_to_even_wherever_the_law_runs(jax, casadi):
     """A compiler that cancelled the sum and the difference in the rounding would give x back."""
     s = casadi.SX.sym("x")
-    expected = np.round(x)
-    assert displayed(x, math.inf, 1.0, 1.0) == expected
-    assert float(jax.jit(lambda x: displayed(x, math.inf, 1.0, 1.0))(x)) == expected
-    assert float(casadi.Function("law", [s], [displayed(s, math.inf, 1.0, 1.0)])(x)) == expected
+    by_jax = jax.jit(lambda x: displayed(x, math.inf, 1.0, 1.0))
+    by_casadi = casadi.Function("law", [s], [displayed(s, math.inf, 1.0, 1.0)])
+    for x in (-2.5, -1.5, -0.5, 0.5, 1.5, 2.5):
+        for read_out in (lambda x: displayed(x, math.inf, 1.0, 1.0), by_jax, by_casadi):
+            assert float(read_out(x)) == np.round(x)
 
 
 @given(numbers(100.0))

@@ -45,8 +45,10 @@ def allan_deviation(x: np.ndarray, samples: int) -> float:
     return float(np.sqrt(0.5 * np.mean(np.diff(means, axis=0) ** 2)))
 
 
-@pytest.mark.parametrize("interval", [0.001, 0.004, 0.02])
-@pytest.mark.parametrize(("noise_interval", "density"), [(0.001, NOISE * 0.001**0.5), (1.0, NOISE), (None, None)])
+@pytest.mark.parametrize(
+    ("interval", "noise_interval", "density"),
+    [(0.02, 0.001, NOISE * 0.001**0.5), (0.004, 1.0, NOISE), (0.02, None, NOISE * 0.02**0.5)],
+)
 def test_the_density_of_the_noise_is_kept_or_the_noise_of_a_sample(interval, noise_interval, density):
     table = SensorsTable(
         model="simulated",
@@ -57,7 +59,6 @@ def test_the_density_of_the_noise_is_kept_or_the_noise_of_a_sample(interval, noi
         joints={"force_noise": NOISE, "interval": interval / 2 if interval > 0.001 else None},
     )
     seen = readings_of_steps(table, 1200, flights=150)
-    density = NOISE * interval**0.5 if density is None else density
     for value in ("specific_force", "rates"):
         x = np.array([getattr(r.imu, value).y for r in seen])
         assert allan_deviation(x, 200) == pytest.approx(density / 0.2**0.5, rel=0.12)
@@ -70,7 +71,7 @@ def test_a_sample_of_the_joints_scales_with_their_own_interval():
     assert x.std() == pytest.approx(NOISE * (0.002 / 0.008) ** 0.5, rel=0.03)
 
 
-@pytest.mark.parametrize(("every", "of_joints", "first"), [(1, 3, 2), (4, 4, 1), (4, 1, 0), (2, 5, 3), (6, 4, 0)])
+@pytest.mark.parametrize(("every", "of_joints", "first"), [(1, 3, 2), (4, 1, 0), (2, 5, 3)])
 def test_a_sample_of_the_imu_holds_the_last_one_of_joints_on_their_own_clock(every, of_joints, first):
     table = SensorsTable(
         model="simulated",
@@ -89,10 +90,6 @@ def test_a_sample_of_the_imu_holds_the_last_one_of_joints_on_their_own_clock(eve
 @pytest.mark.parametrize(
     ("keys", "text"),
     [
-        (
-            {"sensors.first_sample": 0.004},
-            "sensors.first_sample = 0.004: sensors.interval must be above it, and is 0.0",
-        ),
         (
             {"sensors.interval": 0.004, "sensors.first_sample": 0.004},
             "sensors.first_sample = 0.004: sensors.interval must be above it, and is 0.004",
