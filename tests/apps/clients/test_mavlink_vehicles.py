@@ -269,12 +269,12 @@ def _offset(made, name):
     return struct.calcsize("<" + "".join(fields[: made.ordered_fieldnames.index(name)]))
 
 
-def test_thousands_of_hostile_packets_of_each_kind_do_not_end_a_flight(world):
+def test_ten_thousand_hostile_packets_of_each_kind_do_not_end_a_flight(world):
     world.take_off()
     rng = random.Random(5)
     client = world.clients[0]
     for kind in ("noise", "cut", "flipped", "random", "for us"):
-        for _ in range(25):
+        for _ in range(125):
             for _ in range(80):
                 client.write(packets(kind, rng))
             world.fly(0.02, 0.02)
