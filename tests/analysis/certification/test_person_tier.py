@@ -19,7 +19,7 @@ from tandemlift.analysis.certification.felt_admittance import (
     stiffness_limit,
 )
 from tandemlift.analysis.certification.flown import flown_limit, hover_as_flown, trial_of
-from tandemlift.analysis.certification.person import ArmBox, leading_impedance, person_tier
+from tandemlift.analysis.certification.person import ArmBox, leading_impedance, passivity, person_tier
 from tandemlift.missions import load_mission
 
 W = np.geomspace(0.01, 300.0, 500)
@@ -80,6 +80,21 @@ def test_a_pure_admittance_is_stable_with_every_arm_and_a_delayed_one_up_to_the_
     limit = low * math.hypot(3.0, 2.0 * low)
     late = one_axis(np.exp(-s * delay) / (2.0 * s + 3.0))
     assert stiffness_limit(late, 0.0) == pytest.approx(limit, rel=0.01)
+
+
+@pytest.mark.parametrize(("gain", "passive"), [(1.2, True), (1.3, False)])
+def test_an_admittance_lighter_than_its_robot_is_passive_up_to_keeminks_limit_of_the_gain(gain, passive):
+    """Keemink et al., 2018: a velocity loop of gain K_p makes m_r = 10 kg, b_r = 5 N s/m feel as m_v = 2 kg.
+
+    It is passive up to K_p = b_r m_v/(m_r - m_v) = 1.25; beyond, no spring is stable in its hand (Routh).
+    """
+    w = np.geomspace(0.01, 300.0, 20_000)
+    robot, virtual, s = 10.0 * 1j * w + 5.0, 2.0 * 1j * w, 1j * w
+    Y = (gain / virtual + 1.0) / (robot + gain)
+    claims = passivity(FeltAdmittance(w, Y[:, None, None] * np.eye(3)))
+    assert [claim.value == math.inf for claim in claims] == [passive] * 3
+    for stiffness in (1.0, 30.0, 1000.0):
+        assert is_coupled_stable(FeltAdmittance(w, Y[:, None, None]), stiffness / s) is passive
 
 
 def test_flights_in_the_hand_of_an_arm_begin_to_oscillate_at_the_predicted_stiffness():

@@ -29,6 +29,7 @@ from tandemlift.missions import load_mission
 from tandemlift.parts.pilot.thrust_bounds import rotor_axes
 
 pytest.importorskip("cvxpy")
+scipy_signal = pytest.importorskip("scipy.signal")
 CIRCLE = np.exp(1j * np.linspace(0.0, math.pi, 4001))
 ONE = np.ones(1)
 PITCHES, ROLLS = ("velocity.x", "rates.y", "attitude.y"), ("velocity.y", "rates.x", "attitude.x")
@@ -66,6 +67,15 @@ def flights_of(name):
 @cache
 def tier_of_iris():
     return nonlinear_tier(load_mission("iris"), fly=True)
+
+
+def test_the_circle_criterion_gives_the_sector_of_khalils_example():
+    """Khalil, Nonlinear Systems, 2002, example 7.1: 4/((s + 1)(s/2 + 1)(s/3 + 1)) has Re ≥ −0.857: sector [0, 1.166].
+
+    The bilinear transform maps the imaginary axis onto the unit circle, so the sampled loop has the same sector.
+    """
+    A, B, C, D, _ = scipy_signal.cont2discrete(scipy_signal.tf2ss([24.0], np.poly([-1.0, -2.0, -3.0])), 0.2, "bilinear")
+    assert largest_sector(part_of(Plant(A, -B, C, -D)), 10.0) == pytest.approx(1.166, rel=0.01)
 
 
 def test_the_sector_of_a_random_loop_is_that_of_its_frequency_response():

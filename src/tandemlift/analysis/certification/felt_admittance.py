@@ -88,7 +88,9 @@ def is_coupled_stable(felt: FeltAdmittance, Z: NDArray[np.complexfloating]) -> b
     """Whether a stable vehicle stays stable once an impedance Z (F,), the same along each axis, holds its grip."""
     eye = np.eye(felt.Y.shape[-1])
     det = np.linalg.det(eye + felt.Y * Z[:, None, None]) if len(eye) > 1 else 1.0 + felt.Y[:, 0, 0] * Z
-    ends = np.angle(np.linalg.eigvals(eye + felt.Y[[0, -1]] * Z[[0, -1], None, None])).sum(axis=1)
+    ends = np.linalg.eigvals(eye + felt.Y[[0, -1]] * Z[[0, -1], None, None])
+    # between -3/2 π and π/2: a spring on a mass without damping begins at -π, on one side of it or the other
+    ends = (np.angle(1j * ends) - 0.5 * math.pi).sum(axis=1)
     turned = np.unwrap(np.angle(det))
     return bool(abs(turned[-1] - turned[0] - (ends[1] - ends[0])) < math.pi)
 

@@ -81,7 +81,7 @@ def person_tier(mission: Mission, box: ArmBox, *, fly: bool = False) -> Tier:
     except InputError as error:
         return Tier("person", TITLE, ASSUMPTIONS, reason=f"there is no linear model: {error}")
     contact = contact_claims(mission.hover.mass, max(mission.compliance.max_speed))
-    claims = (*_passivity(felt), *_arms(mission.person, felt, box), *contact)
+    claims = (*passivity(felt), *_arms(mission.person, felt, box), *contact)
     curves = {
         "frequency": felt.w.tolist(),
         **{axis: felt.Y[:, i, i].real.tolist() for i, axis in enumerate("xyz")},
@@ -90,7 +90,7 @@ def person_tier(mission: Mission, box: ArmBox, *, fly: bool = False) -> Tier:
     return Tier("person", TITLE, ASSUMPTIONS, claims, curves)
 
 
-def _passivity(felt: FeltAdmittance) -> Iterator[Claim]:
+def passivity(felt: FeltAdmittance) -> Iterator[Claim]:
     """Up to which frequency the vehicle is passive in the hand: Re Y ≥ 0."""
     for i, axis in enumerate("xyz"):
         real = felt.Y[:, i, i].real
