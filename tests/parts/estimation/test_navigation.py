@@ -154,9 +154,10 @@ def test_a_motion_measurement_that_is_late_is_compared_with_the_state_of_then():
     now = steady(6.0, (0.0, 0.0, 0.5), (0.0, 0.0, 0.0))
     truth = now[late:].copy()
     truth[:, :10] = now[:-late, :10]  # what motion sees is of 20 ms ago
-    now, k, devices = now[late:], navigator(), sensors(2, STEP)
-    known = errors(estimated(truth, k._replace(age=late * STEP), devices), now)
-    unknown = errors(estimated(truth, k, devices), now)
+    now, devices, imu = now[late:], sensors(2, STEP), 0.005
+    clocks = SensorsTable(interval=STEP, delay=imu, motion={"interval": STEP, "delay": imu + late * STEP})
+    known = errors(estimated(truth, navigator_from(EstimatorTable(), clocks, CENTRE, STEP), devices), now)
+    unknown = errors(estimated(truth, navigator(), devices), now)
     assert np.abs(known["position"][-1]).max() < 1e-4
     assert np.abs(known["velocity"][-1]).max() < 2e-4
     assert np.abs(known["turn"][-1]).max() < 1e-6
