@@ -149,17 +149,18 @@ def test_a_vehicle_that_stays_in_the_air_has_not_landed(flights):
     assert not of_kind(flights["calm"], "not-landed")
 
 
-def test_the_first_of_several_landings_that_are_asked_for_is_the_one_that_is_missed():
+def test_the_first_of_several_landings_that_are_asked_for_is_the_one_that_is_missed_however_high_it_has_climbed():
     asked = [{"action": "land", "time": t} for t in (20.0, 5.0, 60.0)]
     plan = FlightPlan(tl.load_mission("iris", {"requests": asked, "mission.duration": 70.0}))
     start = plan.model.flight_state
-    above = start.state._replace(position=start.state.position._replace(z=start.state.position.z + 0.5))
 
-    def missed(seconds, outcome="flying"):
+    def missed(seconds, outcome="flying", height=0.5):
+        above = start.state._replace(position=start.state.position._replace(z=start.state.position.z + height))
         found = findings_of(plan, start._replace(state=above), round(seconds / plan.dt), outcome)
         return [(f.kind, f.value, f.text.split()[-2]) for f in found]
 
     assert missed(19.0) == [("not-landed", pytest.approx(0.5), "5")]
+    assert missed(19.0, height=100.0) == [("not-landed", pytest.approx(100.0), "5")]  # no time to sink from there
     assert missed(69.0) == missed(19.0)
     assert missed(6.0) == missed(19.0, "landed") == []
 

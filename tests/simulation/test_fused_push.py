@@ -87,3 +87,25 @@ def test_wind_and_weak_rotors_are_no_error_of_the_joints(error, flights):
     late = flight.time > 24.0
     if error == "thrust":
         assert np.abs(flight["push_estimate"][late].mean(axis=0)).max() < 0.1  # N; the rotors lost 0.86
+
+
+BRIEF = {
+    **{"mission.duration": 8.0, "mission.log_interval": 0.01, "phases.lift_start": 0.5, "phases.lift_duration": 2.0},
+    **{"phases.land_start": None, "estimator.tare_start": 3.0, "estimator.tare_duration": 1.5},
+    "pushes": [{"force": [3.0, 2.0, 1.5], "time": 6.2, "sigma": 0.4}],
+}
+
+
+@pytest.mark.parametrize(("wrench", "joints"), [("fused", "simulated"), ("kalman", "none")])
+def test_the_push_on_the_body_of_mujoco_is_found_as_on_ours(wrench, joints):
+    """The truth is the wrench that MuJoCo applies; thrusts, motion and joints are those of its bodies."""
+    pytest.importorskip("mujoco")
+    changes = {"estimator.wrench": wrench, "sensors.joints.model": joints}
+    mission, errors = tl.load_mission("iris", BRIEF | changes), []
+    for engine in ("compiled", "mujoco"):
+        flight = tl.fly(mission, engine)
+        hovers = flight.time > 4.6
+        assert np.abs(flight["push_force"][hovers]).max() > 2.9
+        errors.append(np.sqrt(np.mean((flight["push_estimate"] - flight["push_force"])[hovers] ** 2, axis=0)))
+    assert np.max(errors) < 0.1  # N
+    assert errors[1] == pytest.approx(errors[0], abs=0.003)

@@ -1,7 +1,7 @@
 """Flights that once ended badly without a word: each flies well now, or is told of after.
 
 A row says how a flight ends, and the findings that it must have. A row without findings flies well: it lands, near its
-reference all the time. What is warned of before is in `tests/missions/test_flight_checks.py`.
+reference all the time. What is warned of before is in `tests/missions/test_warned.py`.
 """
 
 from typing import Any, NamedTuple

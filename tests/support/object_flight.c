@@ -1,5 +1,5 @@
 /* Flies an object of `tandemlift compile`: reads a job, calls prepare and fly, writes the log.
-   The job is laid out by tests/support/object_flights.py: 64-bit integers, then doubles. */
+   The job is laid out by tests/codegen/test_objects.py: 64-bit integers, then doubles. */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-"""The derivative of a step of our graph against CasADi, which differentiates the same laws in plain Python."""
+"""The derivative of a step of our graph against CasADi and JAX, which differentiate the same laws in plain Python."""
 
 from __future__ import annotations
 
@@ -49,6 +49,17 @@ def test_the_jacobian_is_that_by_casadi(which, casadi):
     error = (np.abs(found - expected) / size)[rows]
     assert np.abs(expected).max() > 1.0
     assert error.max() < 1e-9, [(rows[i], j) for i, j in np.argwhere(error > 1e-9)[:5]]
+
+
+def test_the_jacobian_along_a_random_direction_is_that_by_jax(jax):
+    """Of all columns at once: JAX evaluates operation by operation, for XLA compiles a whole step for minutes."""
+    name, changes, at = POINTS["paper, pushed along x and tilted"]
+    of = linearized(name, changes, at, steps=1)
+    step, found = PlainStep(of.recipe), local_jacobian(of)
+    direction = np.random.default_rng(2).standard_normal(len(step.x0))
+    _, moved = jax.jvp(lambda x: jax.numpy.stack(step(list(x))), (step.x0,), (direction,))
+    rows, size = shared_rows(of, len(found)), 1e-3 + np.abs(found).max(axis=1)
+    assert (np.abs(moved - found @ direction) / size)[rows].max() < 1e-9
 
 
 ELEMENTARY = {

@@ -85,6 +85,19 @@ def test_the_operators_pass_the_checks_of_pytorch():
         torch.library.opcheck(operators.cotangent.default, given)
 
 
+def test_transforms_of_torch_func_agree():
+    func, together = torch.func, motion(PUSHES)
+    assert torch.equal(func.vmap(motion)(PUSHES), together)
+    assert torch.equal(torch.stack([motion(push) for push in PUSHES]), together)
+    forward, reverse = (func.vmap(way(motion))(PUSHES) for way in (func.jacfwd, func.jacrev))
+    assert torch.allclose(forward, reverse, rtol=1e-12, atol=1e-15)
+    vectorized = torch.autograd.functional.jacobian(motion, PUSHES[0], vectorize=True)
+    assert torch.allclose(vectorized, reverse[0], rtol=1e-12, atol=1e-15)
+    push = PUSHES.clone().requires_grad_()
+    (plain,) = torch.autograd.grad(motion(push).sum(), push)
+    assert torch.allclose(func.vmap(func.grad(lambda u: motion(u).sum()))(PUSHES), plain, rtol=1e-12, atol=1e-15)
+
+
 def test_a_gradient_by_parameters_that_lanes_share_is_the_sum_over_lanes():
     step = step_of()
     state, parameters = torch.from_numpy(step.state), torch.from_numpy(step.parameters).clone().requires_grad_()

@@ -42,6 +42,13 @@ def test_the_help_shows_each_verb_once_in_a_group_and_no_line_is_cut(run):
     assert "..." not in verbs
 
 
+def test_without_a_verb_the_help_is_shown_and_the_version_is_told(run):
+    code, out, err = run()
+    assert code == 2
+    assert "tandemlift run paper" in out + err
+    assert run("--version") == (0, f"tandemlift, version {tl.__version__}\n", "")
+
+
 def test_the_help_of_run_names_what_is_written_and_the_exit_codes(run):
     _, out, _ = run("run", "-h")
     for word in (

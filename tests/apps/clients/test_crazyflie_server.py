@@ -64,16 +64,16 @@ def test_a_second_client_is_answered_only_when_it_scans_until_the_first_is_silen
     assert second.recv(100) == b"\xfc\0yours"  # what it asked meanwhile
 
 
-def test_thousands_of_datagrams_of_any_content_leave_it_answering(served, client):
+def test_ten_thousand_datagrams_of_any_content_leave_it_answering(served, client):
     rng, one, (server, (address, _)) = np.random.default_rng(6), client(), served
-    for k in range(2_000):
+    for k in range(10_000):
         one.sendto(rng.bytes(int(rng.integers(0, 1500))), address)
         if k % 25 == 24:  # so that none is lost on the way, although the server gets no processor
             answer, echo = b"", b"\xfc" + str(k).encode()
             one.sendto(echo, address)
             while answer != echo:
                 answer = one.recv(100)
-    assert server.devices[0].refused > 200
+    assert server.devices[0].refused > 1_000
 
 
 def test_a_port_in_use_is_refused_with_what_to_do(client):

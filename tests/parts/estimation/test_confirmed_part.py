@@ -158,3 +158,10 @@ def test_without_identification_the_mass_is_the_nominal_one_and_before_its_end_t
     early = tared(armed=0.0)
     assert (early.mass, early.force, early.moment) == (2.0, ZERO, ZERO)
     assert not np.array(early.sides).any()
+
+
+def test_a_tare_that_begins_anew_forgets_the_one_before():
+    sums = NONE
+    for begun in (1.0, 0.0, 1.0):
+        sums = summed(sums, begun, begun, vec3(FORCE[0]), vec3(SPECIFIC[0]), vec3(MOMENT[0]), NONE.sides)
+    assert (sums.count, sums.force) == (1.0, pytest.approx(FORCE[0]))

@@ -93,6 +93,19 @@ def test_rotors_at_one_place_share_alike():
 # What is given up
 
 
+@pytest.mark.parametrize("beyond", [0, 3], ids=["thrust", "yaw"])
+def test_roll_and_pitch_come_first_then_thrust_then_yaw(beyond):
+    """As the key of the priorities says: what is out of reach costs what matters less."""
+    c = craft(2, "x")
+    wanted = np.array([c.vehicle.weight, 0.2, 0.1, 0.0])
+    wanted[beyond] = (500.0, None, None, 10.0)[beyond]
+    given = c.B @ solve(c, problem(c, wanted)).f
+    short = abs(given[beyond] - wanted[beyond])
+    assert short > 0.5 * wanted[beyond]
+    assert given[1:3] == pytest.approx(wanted[1:3], abs=0.002 * short)
+    assert beyond == 0 or given[0] == pytest.approx(wanted[0], rel=0.01)
+
+
 @pytest.mark.parametrize(("layout", "lost"), [("+", 0), ("+", 1), ("+", 6), ("x", 3)])
 def test_with_a_rotor_lost_hover_keeps_the_yaw_that_a_linear_programme_finds(layout, lost):
     """Two quadrotors hover level without any one rotor; on "+" with a rotor gone on the x axis they must turn."""
