@@ -38,12 +38,12 @@ hypothesis.settings.load_profile("tandemlift")
 
 def pytest_addoption(parser):
     """Let `make quick` ask for quick tests."""
-    parser.addoption("--quick", action="store_true", help="only tests that neither compile, start a process nor browse")
+    parser.addoption("--quick", action="store_true", help="only tests that were quick when they ran last")
 
 
 def pytest_configure(config):
-    """Hold quick tests to what they may do."""
-    if config.getoption("quick"):
+    """Learn which tests are quick, where that can be kept."""
+    if hasattr(config, "cache"):
         config.pluginmanager.register(Quick(config))
 
 

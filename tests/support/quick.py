@@ -1,12 +1,14 @@
-"""`pytest --quick`: only tests that neither compile, nor start a process, nor browse; single laws may be compiled.
+"""`pytest --quick`: only tests that were quick when they ran last.
 
-This is no list that somebody keeps. A test that asks for one of these is skipped at that moment, and pytest's cache
-keeps its name with a digest of its file. While the file does not change, the test is not run again.
+A quick test neither compiles a flight nor starts a process, and takes little of the processor's time. This is no list
+that somebody keeps: every run, with `--quick` or without, tells pytest's cache which tests were slow. While a file
+does not change, `--quick` leaves its slow tests out. What was never run, or has changed, runs once.
 """
 
+import functools
 import hashlib
 import sys
-import threading
+import time
 from pathlib import Path
 
 import llvmlite.binding
@@ -16,30 +18,33 @@ from tandemlift.compiler.machine_code.code import Code
 
 KEPT = "tandemlift/slow"
 STARTS = {"subprocess.Popen", "os.fork", "os.posix_spawn", "os.system"}
-LAWS = "tests/parts/"
+LAWS = "tests/parts/"  # whose tests may compile single laws
+MOST = 0.5  # s of the processor, with what its fixtures take
 
 
 class Quick:
-    """Skips tests that are not quick, and remembers them: by file, its digest and the names of its slow tests."""
+    """Remembers which tests are slow: by file, its digest and the names of its slow tests."""
 
     def __init__(self, config):
-        self.config, self.known, self.why, self.path = config, config.cache.get(KEPT, {}), "", ""
+        self.config, self.known = config, config.cache.get(KEPT, {})
+        self.path, self.slow, self.began = "", False, 0.0
         sys.addaudithook(self._hear)
-        Code.__init__ = lambda *_, **__: self._refuse("compiles a flight")
-        parse = llvmlite.binding.parse_assembly
-        llvmlite.binding.parse_assembly = lambda text: (
-            parse(text) if self.path.startswith(LAWS) else self._refuse("compiles")
-        )
+        Code.__init__ = self._noticed(Code.__init__, within="")
+        llvmlite.binding.parse_assembly = self._noticed(llvmlite.binding.parse_assembly, within=LAWS)
 
     def _hear(self, event, args):
-        if self.path and (event in STARTS and Path(args[0]).name != "git"):
-            self._refuse("starts a process")
+        if event in STARTS and Path(args[0]).name != "git":
+            self.slow = True
 
-    def _refuse(self, why):
-        self.why = why
-        if threading.current_thread() is not threading.main_thread():
-            sys.exit()  # the thread alone, without a word
-        pytest.skip(why)
+    def _noticed(self, function, within):
+        """The function, whose calls make a test slow that is not `within` a folder."""
+
+        @functools.wraps(function)
+        def call(*args, **options):
+            self.slow |= not (within and self.path.startswith(within))
+            return function(*args, **options)
+
+        return call
 
     def _slow(self, path):
         """The names of the slow tests of a file, as far as they are known."""
@@ -48,32 +53,30 @@ class Quick:
 
     def pytest_collection_modifyitems(self, items):
         """Leave out what is known to be slow."""
-        slow = {path: set(self._slow(path)) for path in {_place(item.nodeid)[0] for item in items}}
-        out = [item for item in items if (place := _place(item.nodeid))[1] in slow[place[0]]]
-        self.config.hook.pytest_deselected(items=out)
-        items[:] = [item for item in items if item not in set(out)]
+        if self.config.getoption("quick"):
+            slow = {path: set(self._slow(path)) for path in {_place(item.nodeid)[0] for item in items}}
+            out = [item for item in items if (place := _place(item.nodeid))[1] in slow[place[0]]]
+            self.config.hook.pytest_deselected(items=out)
+            items[:] = [item for item in items if item not in set(out)]
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_protocol(self, item):
-        """Know which test runs."""
-        self.why, self.path = "", item.nodeid
-        yield
-        self.path = ""
-        return True
+        """Begin to watch a test."""
+        self.path, self.slow, self.began = item.nodeid, False, time.process_time()
+        return (yield)
 
     @pytest.hookimpl(wrapper=True)
-    def pytest_runtest_makereport(self, item):
-        """A test that was refused something is skipped, whatever it made of the refusal."""
+    def pytest_runtest_makereport(self):
+        """Say in a report whether the test has been slow so far."""
         report = yield
-        if self.why and report.when != "teardown":
-            report.outcome, report.longrepr = "skipped", (str(item.path), 0, f"Skipped: {self.why}")
+        report.slow = self.slow or time.process_time() - self.began > MOST
         return report
 
     def pytest_runtest_logreport(self, report):
-        """Remember what was slow, where reports arrive."""
-        if report.skipped:
+        """Remember slow tests where reports arrive."""
+        if report.when == "teardown":
             path, name = _place(report.nodeid)
-            slow = {*self._slow(path), name}
+            slow = {*self._slow(path)} - {name} | ({name} if report.slow else set())
             self.known[path] = {"digest": _digest(self.config.rootpath / path), "slow": sorted(slow)}
 
     def pytest_sessionfinish(self):
@@ -88,5 +91,6 @@ def _place(nodeid):
     return path, name
 
 
+@functools.cache
 def _digest(path):
     return hashlib.sha256(path.read_bytes()).hexdigest()
