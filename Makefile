@@ -53,7 +53,7 @@ tests: .venv/dev ## all tests
 	@# a file stays in one process, which makes its fixtures once
 	PYTHONDONTWRITEBYTECODE= OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n $$(( $$(getconf _NPROCESSORS_ONLN) + 1 )) --dist loadfile --no-loadscope-reorder
 
-quick: .venv/dev ## tests that were quick when they ran last; the first run, or `make tests`, learns which
+quick: .venv/dev ## files of tests that were quick when they ran last; the first run, or `make tests`, learns which
 	OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto -q --quick
 
 check: .venv/dev ## one room: its format, lint, types, and the tests beside it: make check ROOM=parts/guidance

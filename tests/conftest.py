@@ -38,11 +38,11 @@ hypothesis.settings.load_profile("tandemlift")
 
 def pytest_addoption(parser):
     """Let `make quick` ask for quick tests."""
-    parser.addoption("--quick", action="store_true", help="only tests that were quick when they ran last")
+    parser.addoption("--quick", action="store_true", help="only files whose tests were quick when they ran last")
 
 
 def pytest_configure(config):
-    """Learn which tests are quick, where that can be kept."""
+    """Learn which files are quick, where that can be kept."""
     if hasattr(config, "cache"):
         config.pluginmanager.register(Quick(config))
 

@@ -10,11 +10,15 @@ FILES = [path.relative_to(PACKAGE.parent) for path in PACKAGE.rglob("*.py")]
 NAMES = {f"src/{file.as_posix()}": ".".join(file.with_suffix("").parts).removesuffix(".__init__") for file in FILES}
 MODULES = set(NAMES.values())
 IMPORTERS = {"import_module", "__import__", "find_spec", "resolve_name", "run_module"}  # by a name in a string
-TREES = {name: tree for name, (_, tree) in python_files(PACKAGE).items()}
+
+
+def trees():
+    """The syntax tree of each file."""
+    return {name: tree for name, (_, tree) in python_files(PACKAGE).items()}
 
 
 def test_no_public_class_has_the_name_of_another():
-    classes = [node.name for tree in TREES.values() for node in ast.walk(tree) if isinstance(node, ast.ClassDef)]
+    classes = [node.name for tree in trees().values() for node in ast.walk(tree) if isinstance(node, ast.ClassDef)]
     named = Counter(name for name in classes if not name.startswith("_"))
     assert [name for name, count in named.items() if count > 1] == [], "say by the name what each of them is"
 
@@ -33,14 +37,15 @@ def logic(tree):
 def test_an_init_file_holds_no_logic():
     assert logic(ast.parse('"""What it is."""\nfrom a import b\n__all__ = ["b"]')) == []
     assert logic(ast.parse("from a import b\nb()\nX = 1\nif TYPED:\n    import a\nclass A: ...")) == [2, 3, 4, 6]
-    found = [name for name, tree in TREES.items() if name.endswith("__init__.py") and name != FACE and logic(tree)]
+    found = [name for name, tree in trees().items() if name.endswith("__init__.py") and name != FACE and logic(tree)]
     assert_none(found, "an __init__.py imports and says __all__: move the rest to a module beside it")
 
 
 def test_what_the_package_loads_when_asked_is_what_type_checkers_are_told_and_all_that_it_lists():
-    said = {ast.unparse(n.targets[0]): n.value for n in TREES[FACE].body if isinstance(n, ast.Assign)}
+    face = trees()[FACE].body
+    said = {ast.unparse(n.targets[0]): n.value for n in face if isinstance(n, ast.Assign)}
     assert sorted(said) == ["_HOMES", "__all__"]
-    (checked,) = [node for node in TREES[FACE].body if isinstance(node, ast.If)]
+    (checked,) = [node for node in face if isinstance(node, ast.If)]
     assert ast.unparse(checked.test) == "TYPE_CHECKING"
     imported = {alias.name: node.module for node in checked.body for alias in node.names}
     homes = ast.literal_eval(said["_HOMES"])
@@ -88,5 +93,5 @@ run([sys.executable, '-m', 'tandemlift.engines.models.mjcf'])
 def test_no_import_is_hidden_in_a_string():
     assert hidden_imports(ast.parse(HIDDEN)) == [1, 2, 3, 4, 5]
     assert hidden_imports(ast.parse(OPEN), own="tandemlift.engines.models.mjcf") == []
-    found = [name for name, tree in TREES.items() if name != FACE and hidden_imports(tree, NAMES[name])]
+    found = [name for name, tree in trees().items() if name != FACE and hidden_imports(tree, NAMES[name])]
     assert_none(found, "import it by an import statement, in the function if it is seldom needed")

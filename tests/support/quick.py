@@ -1,8 +1,8 @@
-"""`pytest --quick`: only tests that were quick when they ran last.
+"""`pytest --quick`: only files whose tests were quick when they ran last.
 
-A quick test neither compiles a flight nor starts a process, and takes little of the processor's time. This is no list
-that somebody keeps: every run, with `--quick` or without, tells pytest's cache which tests were slow. While a file
-does not change, `--quick` leaves its slow tests out. What was never run, or has changed, runs once.
+A quick test neither compiles a flight nor starts a process, and takes little of the processor's time. Files are judged
+as wholes, for their tests share fixtures and flights. This is no list that somebody keeps: every run, with `--quick` or
+without, tells pytest's cache which files were slow. What was never run, or has changed, runs once.
 """
 
 import functools
@@ -16,17 +16,17 @@ import pytest
 
 from tandemlift.compiler.machine_code.code import Code
 
-KEPT = "tandemlift/slow"
+KEPT = "tandemlift/slow-files"
 STARTS = {"subprocess.Popen", "os.fork", "os.posix_spawn", "os.system"}
 LAWS = "tests/parts/"  # whose tests may compile single laws
-MOST = 0.5  # s of the processor, with what its fixtures take
+MOST = 2.0  # s of the processor, with what a test's fixtures take
 
 
 class Quick:
-    """Remembers which tests are slow: by file, its digest and the names of its slow tests."""
+    """Remembers which files are slow, by their digests, and leaves them out if `--quick` asks for it."""
 
     def __init__(self, config):
-        self.config, self.known = config, config.cache.get(KEPT, {})
+        self.config, self.slow_files, self.run = config, config.cache.get(KEPT, {}), set()
         self.path, self.slow, self.began = "", False, 0.0
         sys.addaudithook(self._hear)
         Code.__init__ = self._noticed(Code.__init__, within="")
@@ -46,18 +46,12 @@ class Quick:
 
         return call
 
-    def _slow(self, path):
-        """The names of the slow tests of a file, as far as they are known."""
-        known = self.known.get(path, {})
-        return known.get("slow", []) if known.get("digest") == _digest(self.config.rootpath / path) else []
-
-    def pytest_collection_modifyitems(self, items):
-        """Leave out what is known to be slow."""
-        if self.config.getoption("quick"):
-            slow = {path: set(self._slow(path)) for path in {_place(item.nodeid)[0] for item in items}}
-            out = [item for item in items if (place := _place(item.nodeid))[1] in slow[place[0]]]
-            self.config.hook.pytest_deselected(items=out)
-            items[:] = [item for item in items if item not in set(out)]
+    def pytest_ignore_collect(self, collection_path):
+        """Leave out a file that is known to be slow."""
+        if self.config.getoption("quick") and collection_path.is_file():
+            name = collection_path.relative_to(self.config.rootpath).as_posix()
+            return self.slow_files.get(name) == _digest(collection_path) or None
+        return None
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_protocol(self, item):
@@ -73,22 +67,18 @@ class Quick:
         return report
 
     def pytest_runtest_logreport(self, report):
-        """Remember slow tests where reports arrive."""
-        if report.when == "teardown":
-            path, name = _place(report.nodeid)
-            slow = {*self._slow(path)} - {name} | ({name} if report.slow else set())
-            self.known[path] = {"digest": _digest(self.config.rootpath / path), "slow": sorted(slow)}
+        """Remember slow files where reports arrive."""
+        path = report.nodeid.partition("::")[0]
+        if path not in self.run:
+            self.run.add(path)
+            self.slow_files.pop(path, None)
+        if getattr(report, "slow", True):  # also where a process died
+            self.slow_files[path] = _digest(self.config.rootpath / path)
 
     def pytest_sessionfinish(self):
         """Keep what is remembered; processes of xdist leave it to the one that started them."""
         if not hasattr(self.config, "workerinput"):
-            self.config.cache.set(KEPT, self.known)
-
-
-def _place(nodeid):
-    """A test's file and its name therein."""
-    path, _, name = nodeid.partition("::")
-    return path, name
+            self.config.cache.set(KEPT, self.slow_files)
 
 
 @functools.cache

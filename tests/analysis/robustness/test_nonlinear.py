@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from functools import cache
+from importlib.util import find_spec
 
 import numpy as np
 import pytest
@@ -28,7 +29,7 @@ from tandemlift.core.errors import InputError
 from tandemlift.missions import load_mission
 from tandemlift.parts.pilot.thrust_bounds import rotor_axes
 
-pytest.importorskip("cvxpy")
+pytestmark = pytest.mark.skipif(find_spec("cvxpy") is None, reason="needs cvxpy")
 scipy_signal = pytest.importorskip("scipy.signal")
 CIRCLE = np.exp(1j * np.linspace(0.0, math.pi, 4001))
 ONE = np.ones(1)

@@ -64,6 +64,7 @@ def test_a_refusal_of_an_earlier_grab_lets_go_of_the_next_one_on_both_sides(late
     late.mouse.up()
     other.mouse.up()
     live.wait(lambda seen: seen["held"] == 0.0, "release")
+    late.mouse.move(*middle_of_the_beam(late))  # the camera follows the beam, which was held
     late.mouse.down()
     live.wait(lambda seen: seen["held"] == 1.0, "hold of the beam")
     late.evaluate(ALL_COME)
