@@ -186,8 +186,7 @@ class Quadrotors:
     def _states_at(self, time: float, numbers: Iterable[float]) -> list[sp.QuadrotorState]:
         position, velocity, attitude, rates = np.split(np.fromiter(numbers, float, 13), (3, 6, 10))
         q, w = tuple(attitude.tolist()), vector(rates)
-        R, arms = np.array(sp.rotation_of(q)), self.vehicle.lever_arms
-        places, velocities = position + arms @ R.T, velocity + np.cross(rates, arms) @ R.T
+        places, velocities, R = self.vehicle.quadrotor_motions(position, velocity, attitude, rates)
         before = [s.velocity for s in self._states] or velocities
         forces = ((velocities - before) / self._dt + (0.0, 0.0, GRAVITY)) @ R
         thrusts = np.split(self._thrusts, self.count)

@@ -132,16 +132,6 @@ def euler_of(q: Quaternion) -> Vector:
     return roll, pitch, math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
 
-def rotation_of(q: Quaternion) -> tuple[Vector, Vector, Vector]:
-    """R of a unit quaternion, body to world."""
-    w, x, y, z = q
-    return (
-        (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)),
-        (2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)),
-        (2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)),
-    )
-
-
 def mean_attitude(states: Sequence[QuadrotorState]) -> QuadrotorState:
     """The first of some states that differ little, with the mean of all quaternions and rates."""
     w, x, y, z = (sum(along) for along in zip(*(s.quaternion for s in states), strict=True))

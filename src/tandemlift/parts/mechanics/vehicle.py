@@ -21,7 +21,9 @@ from tandemlift.core.arrays import array, has_symbols, inverse, square_roots
 from tandemlift.core.caching import cached
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY, Array
+from tandemlift.core.vector import Quat
 from tandemlift.parts.mechanics.payload import Payload
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle_table import Drag, PlantTable, Quadrotor, VehicleTable
 
 
@@ -140,6 +142,14 @@ class Vehicle:
     def lever_arms(self) -> Array:
         """Quadrotors' centres of mass from the system's [m], body axes (N × 3)."""
         return np.array([q.position for q in self.quadrotors]) - self.center_of_mass
+
+    def quadrotor_motions(
+        self, position: Array, velocity: Array, attitude: Array, rates: Array
+    ) -> tuple[Array, Array, Array]:
+        """Positions and velocities (N × 3) of the quadrotors, world axes, and R (3 × 3), body to world, of a state."""
+        R = np.array(rotation_from_quaternion(Quat(*attitude.tolist())))
+        arms = self.lever_arms
+        return position + arms @ R.T, velocity + np.cross(rates, arms) @ R.T, R
 
     @property
     def rotor_hubs(self) -> list[list[tuple[float, float, float]]]:
