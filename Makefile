@@ -54,7 +54,7 @@ tests: .venv/dev ## all tests
 	PYTHONDONTWRITEBYTECODE= OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n $$(( $$(getconf _NPROCESSORS_ONLN) + 1 )) --dist loadfile --no-loadscope-reorder
 
 quick: .venv/dev ## files of tests that were quick when they ran last; the first run, or `make tests`, learns which
-	OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto -q --quick
+	OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto -q --quick --dist loadfile --no-loadscope-reorder
 
 check: .venv/dev ## one room: its format, lint, types, and the tests beside it: make check ROOM=parts/guidance
 	@test -n "$(ROOM)" -a -d "src/tandemlift/$(ROOM)" || { echo "make check ROOM=$(ROOM): must be a folder below src/tandemlift, such as parts/guidance"; exit 2; }

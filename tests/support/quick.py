@@ -28,6 +28,7 @@ class Quick:
     def __init__(self, config):
         self.config, self.slow_files, self.run = config, config.cache.get(KEPT, {}), set()
         self.path, self.slow, self.began = "", False, 0.0
+        self.slow_fixtures = set()
         sys.addaudithook(self._hear)
         Code.__init__ = self._noticed(Code.__init__, within="")
         llvmlite.binding.parse_assembly = self._noticed(llvmlite.binding.parse_assembly, within=LAWS)
@@ -60,10 +61,23 @@ class Quick:
         return (yield)
 
     @pytest.hookimpl(wrapper=True)
-    def pytest_runtest_makereport(self):
+    def pytest_fixture_setup(self, fixturedef):
+        """Remember a fixture that was slow: tests in other files may use it afterwards."""
+        before, self.slow = self.slow, False
+        try:
+            return (yield)
+        finally:
+            if self.slow:
+                self.slow_fixtures.add(fixturedef)
+            self.slow |= before
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_makereport(self, item):
         """Say in a report whether the test has been slow so far."""
         report = yield
-        report.slow = self.slow or time.process_time() - self.began > MOST
+        fixtures = (one for same in item._fixtureinfo.name2fixturedefs.values() for one in same)
+        slow_time = time.process_time() - self.began > MOST
+        report.slow = self.slow or slow_time or any(one in self.slow_fixtures for one in fixtures)
         return report
 
     def pytest_runtest_logreport(self, report):
