@@ -19,7 +19,7 @@ from tandemlift.compiler.machine_code.code import Code
 KEPT = "tandemlift/slow-files"
 STARTS = {"subprocess.Popen", "os.fork", "os.posix_spawn", "os.system"}
 LAWS = "tests/parts/"  # whose tests may compile single laws
-MOST = 2.0  # s of the processor, with what a test's fixtures take
+MOST = 1.0  # s of the processor, with what a test's fixtures take
 
 
 class Quick:
