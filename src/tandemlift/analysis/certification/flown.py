@@ -116,11 +116,11 @@ def hover_as_flown(mission: Mission) -> tuple[Mission, float]:
     """(A calm hover of a mission with its own rotors, the time [s] at which it is calm); sensors do not round."""
     calm, at = calm_mission(mission)
     own, t = tables_of(mission), tables_of(calm)
-    _, lag = rotor_delay_and_lag(mission.hover)
-    if mission.actuators.model == "rotors":
+    if mission.actuators.model == "rotors":  # ideal ones have no limit, lag or delay
+        _, lag = rotor_delay_and_lag(mission.hover)
         t["actuators"] = own["actuators"]
-    for q, original in zip(t["vehicle"]["quadrotors"], own["vehicle"]["quadrotors"], strict=True):
-        q |= {"max_speed": original["max_speed"], "lag_up": lag, "lag_down": lag}
+        for q, original in zip(t["vehicle"]["quadrotors"], own["vehicle"]["quadrotors"], strict=True):
+            q |= {"max_speed": original["max_speed"], "lag_up": lag, "lag_down": lag}
     return check(merge(t, {"sensors": UNROUNDED}), mission.mission.name, quiet=True), at
 
 
