@@ -14,7 +14,7 @@ from tandemlift.analysis.certification.certificate import Certificate
 from tandemlift.analysis.certification.flown import with_limits
 from tandemlift.analysis.linearization.claims import Claim, FlownLimit, Tier
 from tandemlift.apps.cli.main import cli
-from tandemlift.missions import load_mission
+from tandemlift.missions import load_mission, tables_of
 from tandemlift.pictures.report.study.certificate_report import certificate_lines, write_certificate
 
 QUICK = ["--set", "mission.duration=12.0", "--set", "phases.land_start=60.0"]
@@ -29,13 +29,17 @@ def made():
             "",
             52.8,
             "ms",
+            command="tandemlift run limits/delay-limit.toml",
             limit=0.0528,
             nominal=0.01,
             flown=FlownLimit(0.052, 0.053, 13.5, "oscillation"),
         ),
         Claim("largest inertia", "yaw", math.inf, "1"),
     )
-    return Certificate("iris", (Tier("linear", "Linear", ("Small motions.",), claims),), {"numpy": "2"})
+    tier = Tier(
+        "linear", "Linear", ("Small motions.",), claims, files={"limits/delay-limit.toml": 'extends = "iris"\n'}
+    )
+    return Certificate("iris", (tier,), {"numpy": "2"}, tables_of(load_mission("iris", {"admittance.damping": 3.25})))
 
 
 def test_a_number_below_its_bar_is_missed_and_one_without_a_bar_is_not():
@@ -61,6 +65,10 @@ def test_the_files_of_a_certificate(tmp_path):
     html = page.read_text("utf-8")
     for words in ("Small motions.", "phase margin, pitch", "<strong>Below the bar</strong>: phase margin, pitch."):
         assert words in html
+    assert f"tandemlift run {tmp_path}/limits/delay-limit.toml" in html
+    assert f"tandemlift certify {tmp_path}/mission.toml --tiers linear" in html
+    assert said["tables"]["admittance"]["damping"] == [3.25] * 3
+    assert load_mission(tmp_path / "mission.toml").admittance.damping == (3.25,) * 3
     assert pdf.read_bytes().startswith(b"%PDF")
     assert any("flown 53 (oscillation)" in line for line in certificate_lines(made()))
 
