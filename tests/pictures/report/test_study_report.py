@@ -1,5 +1,6 @@
 """The page of a study: its numbers are those of the table, it needs nothing else, and trusts no text."""
 
+import math
 import re
 
 import numpy as np
@@ -185,12 +186,17 @@ def test_chosen_metrics_are_shown_and_no_others(study, tmp_path):
         ({}, ""),
         ({"admittance.damping": [5.0, 10.0]}, "Over the parameter"),
         ({"wind.model": ["none", "air"], "admittance.damping": [5.0, 10.0]}, "Maps"),
+        (
+            {"pushes": [[{"force": [f, 0.0, 0.0], "time": 0.1}] * bool(f) for f in (1.0, 2.0, 0.0)]},
+            "Over the parameter",
+        ),
     ],
 )
 def test_small_studies_have_a_page_with_a_map_over_their_grid(grid, title, tmp_path):
     study = made_up({"study": {"name": "small", "missions": ["one-push"]}, "grid": grid}, tmp_path / "small", measured)
     page = check_page(write_study_report(study, tmp_path / "report.html"))
-    assert page.row("all rows")[:2] == ["all rows", str(2 ** len(grid))]
+    assert page.row("all rows")[:2] == ["all rows", str(math.prod(map(len, grid.values())))]
+    assert "None N" not in page.text  # of a push that a row does not have
     assert re.findall(r"<b>Figure \d\. (.*)\.</b>", page.text)[1:] == [title] * bool(title)
 
 

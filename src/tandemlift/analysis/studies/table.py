@@ -186,13 +186,17 @@ class Study:
         return {name: values if len(values) == count else values.reshape(count, -1) for name, values in found.items()}
 
     def rows(self, numbers: Iterable[int], columns: Sequence[str]) -> list[dict[str, Any]]:
-        """Chosen rows that are flown, as dictionaries, in the order given; only their files are read."""
+        """Chosen rows that are flown, as dictionaries, in the order given; only their files are read.
+
+        Raises:
+            InputError: no file of the study has such a column; it is None in rows whose file lacks it.
+        """
         found = dict[int, dict[str, Any]]()
         wanted = list(numbers)
         for file in self.files:
             here = [n for n in wanted if file.first <= n < file.last]
             if here:
-                table = read([file], columns).take([n - file.first for n in here])
+                table = read([file], columns, known=self.columns).take([n - file.first for n in here])
                 found |= dict(zip(here, table.to_pylist(), strict=True))
         return [found[n] for n in wanted]
 
