@@ -1,5 +1,6 @@
 """Tuning as a whole, and training of a policy: a known best gain, evidence on holdout draws, files, and bad input."""
 
+import itertools
 import json
 import math
 
@@ -8,12 +9,13 @@ import pytest
 from click.testing import CliRunner
 
 import tandemlift as tl
-from tandemlift.analysis.studies.tuning.candidates import Trial, cost_of
+from tandemlift.analysis.studies.tuning.candidates import Cost, Trial, cost_of
 from tandemlift.analysis.studies.tuning.goals import Goal
 from tandemlift.analysis.studies.tuning.result import EVIDENCE_FILE
 from tandemlift.apps.cli.main import cli
 from tandemlift.core.errors import InputError
 from tandemlift.parts.interaction.policy import PolicyTable
+from tandemlift.pictures.report.study.tuning_figures import draw_search
 
 STIFFNESS = 4.0  # 1/s²
 DROP = {  # a mass that is let go 0.1 m above its reference, held by a spring and a damper
@@ -138,6 +140,18 @@ def test_the_worst_draw_counts_beside_the_mean_and_the_mean_beside_the_worst():
     assert even[1] < uneven[1] < all_worst[1]
     for i, aim in enumerate(("mean", "worst")):  # of twice the values twice the cost
         assert cost(2, 6, aim=aim).ratio == pytest.approx(2.0 * uneven[i])
+
+
+def test_costs_are_ordered_by_bad_outcomes_and_then_by_ratio_which_may_be_negative():
+    costs = [Cost(bad, ratio) for bad in (0, 1) for ratio in (-1e6, -2.0, -1.0, -0.5, 0.0, 0.5, 1e6)]
+    ranks = [cost.rank for cost in costs]
+    assert all(low < high for low, high in itertools.pairwise(ranks))
+
+
+def test_the_figure_of_a_search_shows_costs_below_zero(dropped):
+    ratios = [-1.1, -0.9, -2.0]
+    shown = draw_search(dropped._replace(history=tuple(Cost(0, ratio) for ratio in ratios))).axes[0].lines[0]
+    assert shown.get_ydata().tolist() == ratios
 
 
 def test_ctrl_c_keeps_the_best_so_far_and_writes_it_as_unfinished(tmp_path):
