@@ -120,6 +120,7 @@ def test_findings_are_bad_outcomes_if_strict_and_several_goals_need_targets_wher
     goals = {"position_rmse_m.2": 0.01, "attitude_rmse_rad": 0.1}
     lax, strict = (quick(goals=goals, changes=far, budget=0, strict=strict) for strict in (False, True))
     assert (lax.new, lax.changes, lax.is_better) == (lax.old, {}, False), "without candidates the present values stay"
+    assert {found.improved for found in lax.evidence.comparisons} == {0.0}, "no difference is no improvement"
     assert lax.evidence.costs[0].bad == 0
     assert strict.evidence.costs[0].bad == 6
     assert set(strict.evidence.old.outcomes) == {"findings"}
