@@ -10,6 +10,7 @@ from click.testing import CliRunner
 
 import tandemlift as tl
 from tandemlift.analysis.studies.tuning.candidates import Cost, Trial, cost_of
+from tandemlift.analysis.studies.tuning.draws import DrawSource, MissionSource, default_study
 from tandemlift.analysis.studies.tuning.goals import Goal
 from tandemlift.analysis.studies.tuning.result import EVIDENCE_FILE
 from tandemlift.apps.cli.main import cli
@@ -92,6 +93,21 @@ def test_holdout_draws_are_none_of_the_search_and_old_and_new_fly_the_same_ones(
     assert not searched & holdout
     again = tl.fly(tl.load_mission("hover", {**QUICK, **found.holdout[3].changes, **found.changes}))
     assert found.evidence.new.values[0][3, 0] == again.metrics()["position_rmse_m"][2]
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"plant.inertia_scale": (1.2, 1.0, 1.0)},
+        {"plant.inertia_scale.0": 1.2},
+        {"plant": {"inertia_scale": [1.2, 1.0, 1.0]}},
+    ],
+    ids=str,
+)
+def test_a_key_that_is_set_is_not_drawn_in_whatever_form_it_is_given(changes):
+    source = MissionSource("hover", changes)
+    draws = DrawSource(default_study(source, 2, seed=0), "hover", source.changes).search_draws()
+    assert [set(draw.changes) for draw in draws] == [{"plant.mass_scale", "mission.seed"}] * 2
 
 
 def test_a_bad_start_is_left_because_bad_outcomes_count_first():
