@@ -10,9 +10,10 @@ from scipy import stats
 from small_studies import made_up, without_file
 
 import tandemlift as tl
+from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.core.findings import FINDING_NAMES
 from tandemlift.pictures.report.page import number
-from tandemlift.pictures.report.study.sections import percent
+from tandemlift.pictures.report.study.sections import percent, what_was_flown
 from tandemlift.pictures.report.study.study_report import write_study_report
 
 HOSTILE = "<script>alert('x')</script>\"&<img src=http://evil.example/x.png>"
@@ -159,6 +160,13 @@ def test_what_was_flown_is_told(page):
     assert ("Drawn", "admittance.damping: log-uniform, low 3.0, high 30.0 N s/m") in told
     assert ("Draws", "200, sampling random, seed 0") in told
     assert f"tandemlift {tl.__version__}, sources" in page.text
+
+
+def test_a_factor_has_no_unit(tmp_path):
+    factor = {"distribution": "uniform", "relative": True, "low": 0.7, "high": 1.3}
+    plan = load_plan({"study": {"name": "light", "missions": ["one-push"]}, "draw": {"admittance.mass": factor}})
+    told = list(what_was_flown(tl.Study(tmp_path, plan, ())))
+    assert ("Drawn", "admittance.mass: uniform, relative true, low 0.7, high 1.3") in told
 
 
 def test_the_mass_is_found_to_matter(page, rows):
