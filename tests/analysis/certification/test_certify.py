@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import shlex
 
 import pytest
 from click.testing import CliRunner
@@ -12,7 +13,9 @@ from scipy.stats import beta
 import tandemlift as tl
 from tandemlift.analysis.certification.certificate import Certificate
 from tandemlift.analysis.certification.flown import with_limits
+from tandemlift.analysis.certification.statistics import _claims
 from tandemlift.analysis.linearization.claims import Claim, FlownLimit, Tier
+from tandemlift.analysis.studies.execution.random_flights import RandomFlight
 from tandemlift.apps.cli.main import cli
 from tandemlift.missions import load_mission
 from tandemlift.pictures.report.study.certificate_report import certificate_lines, write_certificate
@@ -76,6 +79,14 @@ def test_an_arm_without_a_limit_is_not_flown():
 def test_an_unknown_tier_is_refused_before_anything_is_computed():
     with pytest.raises(tl.InputError, match="unknown tier 'liner'"):
         tl.certify("hover", ["liner"])
+
+
+def test_the_command_of_a_failed_flight_names_its_row_and_the_folder_of_the_study(tmp_path):
+    rows = [RandomFlight("flying", ()), RandomFlight("crashed", ())]
+    (claim,) = _claims(rows, tmp_path / "my study")
+    flown = CliRunner().invoke(cli, shlex.split(claim.command)[1:])
+    assert claim.command.endswith("my study' --row 1")
+    assert f"{tmp_path / 'my study'} is not the folder of a study" in str(flown.exception)
 
 
 def test_the_command_writes_a_study_that_goes_on_and_missions_that_fly(tmp_path):

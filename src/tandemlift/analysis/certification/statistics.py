@@ -8,6 +8,7 @@ Source: Clopper and Pearson, The use of confidence or fiducial limits illustrate
 
 from __future__ import annotations
 
+import shlex
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
@@ -54,8 +55,8 @@ def _claims(rows: list[RandomFlight], folder: Path) -> Iterator[Claim]:
     bad = [number for number, row in enumerate(rows) if row.failed]
     some = ", ".join(map(str, bad[:SHOWN])) + (" …" if len(bad) > SHOWN else "")
     text = f"{len(bad)} of {len(rows)} flights failed{': rows ' + some if bad else ''}; confidence 95 %"
-    command = f"tandemlift run {folder} --row {bad[0]}" if bad else f"tandemlift report {folder}"
-    yield _bound("probability of a failure", "", len(bad), len(rows), text, command)
+    words = ["run", "--from", str(folder), "--row", str(bad[0])] if bad else ["report", str(folder)]
+    yield _bound("probability of a failure", "", len(bad), len(rows), text, shlex.join(["tandemlift", *words]))
     kinds = Counter(kind for row in rows for kind in row.findings)
     for kind, count in kinds.most_common():
         yield _bound("probability of a finding", kind, count, len(rows), f"{count} of {len(rows)} flights", "")
