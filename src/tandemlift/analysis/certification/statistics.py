@@ -15,12 +15,11 @@ from pathlib import Path
 
 from tandemlift.analysis.linearization.claims import Claim, Tier
 from tandemlift.analysis.studies.execution.random_flights import (
-    DELAY,
-    INERTIA,
-    MASS,
     RandomFlight,
     probability_bound,
     random_flights,
+    random_plan,
+    what_is_drawn,
 )
 from tandemlift.missions import Mission
 
@@ -39,10 +38,10 @@ def statistics_tier(mission: Mission, folder: Path, flights: int = FLIGHTS) -> T
     Raises:
         InputError: the folder holds another study, or an optional package is missing (extras: certify, study).
     """
-    rows = random_flights(mission, folder, flights)
+    plan = random_plan(mission, folder, flights)
+    rows = random_flights(plan, folder)
     assumptions = (
-        f"Drawn for each flight: mass within ±{100 * MASS:g} %, inertia about each axis within ±{100 * INERTIA:g} %, "
-        f"{1e3 * DELAY:g} ms of further delay with real rotors, the seed of all noise, and the person if one leads.",
+        *what_is_drawn(plan),
         "Uniform and independent: the bound is one on this distribution, not on a vehicle outside of it.",
         "A flight fails if it crashes, diverges, or is lost; one that is landed by the pilot's own alarm does not.",
     )
