@@ -106,8 +106,9 @@ def test_a_study_that_is_not_finished_says_how_much_is_missing(gusts, tmp_path):
     assert "124 of 144 rows" in part._repr_html_()
     with pytest.raises(tl.InputError, match="no full grid: 20 of 144 are missing"):
         part.to_xarray()
-    with pytest.raises(tl.InputError, match="row 45 is not flown yet"):
-        part.channels(45)
+    for asked in (part.channels, lambda row: part.rows([3, row], ["row"])):
+        with pytest.raises(tl.InputError, match="row 45 is not flown yet"):
+            asked(45)
 
 
 def test_a_study_of_which_nothing_is_flown_is_an_empty_table(copy):
