@@ -88,10 +88,8 @@ def what_was_flown(study: Study) -> Iterator[tuple[str, str]]:
     for key, distribution in plan.drawn.items():
         said = distribution.model_dump(exclude_defaults=True)
         kind = said.pop("distribution")
-        yield (
-            "Drawn",
-            f"{key}: {kind}, {', '.join(f'{name} {shown(value)}' for name, value in said.items())}{_unit(key)}",
-        )
+        numbers = ", ".join(f"{name} {shown(value)}" for name, value in said.items())
+        yield "Drawn", f"{key}: {kind}, {numbers}{'' if distribution.relative else _unit(key)}"
     if plan.drawn:
         yield "Draws", f"{plan.point_count}, sampling {settings.study.sampling}, seed {settings.study.seed}"
     if settings.study.seeds > 1:

@@ -52,7 +52,8 @@ def draw_search(found: Tuning) -> Figure:
     ratios = np.array([cost.ratio if cost.bad == least_bad else np.nan for cost in found.history])
     lowest = np.fmin.accumulate(ratios)
     known = ratios[np.isfinite(ratios)]
-    top = float(np.quantile(known, 0.9) * 1.5)
+    high = float(np.quantile(known, 0.9))
+    top = high + 0.5 * abs(high)
     number = np.arange(len(ratios))
     shown = np.where(np.isfinite(ratios), np.minimum(ratios, top), top)
     ax.plot(number, shown, ".", ms=2.0, color=LIGHT_BLUE, label="candidates", rasterized=True)
