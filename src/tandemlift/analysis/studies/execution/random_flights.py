@@ -47,9 +47,10 @@ def random_plan(mission: Mission, folder: Path, flights: int) -> StudyPlan:
     file = folder.parent / f"{mission.mission.name}.toml"
     write_file(file, format_toml(tables_of(mission)))
     uniform = {"distribution": "uniform"}
+    around = {**uniform, "relative": True}
     draw: dict[str, Any] = {
-        "plant.mass_scale": {**uniform, "low": 1.0 - MASS, "high": 1.0 + MASS},
-        "plant.inertia_scale": {**uniform, "low": 1.0 - INERTIA, "high": 1.0 + INERTIA, "count": 3},
+        "plant.mass_scale": {**around, "low": 1.0 - MASS, "high": 1.0 + MASS},
+        "plant.inertia_scale": {**around, "low": 1.0 - INERTIA, "high": 1.0 + INERTIA, "count": 3},
     }
     if mission.actuators.model == "rotors":
         delay = mission.actuators.delay
@@ -68,8 +69,8 @@ def what_is_drawn(plan: StudyPlan) -> tuple[str, str]:
         longer = f"; mission.duration is {LONGER:g} times as long, because some persons are slow"
         person = '; a person as of study.persons = "random", with up to 1 N of wind if the mission has no force'
     return (
-        f"Drawn in place of the mission's: mission.seed, {keys}. All else is as written{longer}.",
-        f"Mass within ±{100 * MASS:g} % of the pilot's, inertia about each axis within ±{100 * INERTIA:g} %, up to "
+        f"Drawn: mission.seed, {keys}. All else is as written{longer}.",
+        f"Mass within ±{100 * MASS:g} % of the mission's, inertia about each axis within ±{100 * INERTIA:g} %, up to "
         f"{1e3 * DELAY:g} ms of further delay with real rotors{person}.",
     )
 
