@@ -215,6 +215,20 @@ def test_outliers_gaps_and_clocks_of_their_own_change_little(log, found):
         assert abs(again[row.key].value - row.value) < 1.5 * row.half, row.key
 
 
+def test_gaps_of_a_stream_cost_no_more_than_their_windows(log):
+    kept = dict(log.between(BEGIN, PUSH - 3.0))
+    for begin, end, names in ((10.2, 11.7, MOTION), (12.3, 12.8, MOTION[1:2]), (13.5, 14.2, IMU[1:])):
+        for name in names:
+            time, values = kept[name]
+            there = (time < begin) | (time > end)
+            kept[name] = Stream(time[there], values[there])
+    true, keys = load_mission(START, TRUTH), ["vehicle.payload.mass", "vehicle.quadrotors.*.thrust_constant"]
+    gapped = tl.identify(Log(kept, "gaps"), true, parameters=keys, weighed=WEIGHED, window=0.4, **SILENT)
+    assert gapped.details["windows"] == {"used": 10, "left_out": 0}  # of 18: six begin in a gap, two are held back
+    for row in gapped.rows:
+        assert abs(row.value - row.start) < 1.5 * row.half < 0.003 * row.start, row.key
+
+
 def test_the_estimate_is_that_of_scipy_on_a_plain_model(log):
     known = {key: value for key, value in TRUTH.items() if "thrust" not in key}
     start = load_mission(START, known | {"vehicle.drag.force": 0.0, "vehicle.drag.moment": 0.0, "ground.effect": False})

@@ -26,7 +26,6 @@ from tandemlift.core.types import Array
 from tandemlift.engines.vehicle_unknowns import Unknowns
 
 HUBER = 3.0
-BEGINNING = 0.2  # of a window
 PLAIN, ROBUST, CAREFUL = range(3)  # least squares of beginnings; Huber's weights; these, and none beyond `ABSURD`
 GROUP = 1.0  # s, about which a bias is constant
 MOST_GROUPS = 60
@@ -171,7 +170,7 @@ class Linearisation:
     def _equations(self, part: LogInSearch, robust: int) -> Equations:
         e, n, predictor = self.estimate, self.unknowns.numbers(self.estimate.q), part.predictor
         if robust == PLAIN:
-            predictor = replace(predictor, windows=part.windows.shortened(BEGINNING))
+            predictor = replace(predictor, windows=part.windows.beginnings())
         w = predictor.windows
         squares, moved = predictor.squares(n, True)
         predicted = predictor.predicted(part.starts, n, squares, e.point)
