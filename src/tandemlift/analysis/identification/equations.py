@@ -182,7 +182,8 @@ class Linearisation:
             clock = self.priors.clocks.get(name)
             behind = None if clock is None else e.biases[part.groups, clock] / w.step
             r = residuals(samples, name, predicted, biases, e.turns, behind) / e.noise[name]
-            found.spread[name] = robust_sd(r[part.used[samples.window]]) * e.noise[name]
+            if (used := part.used[samples.window]).any():
+                found.spread[name] = robust_sd(r[used]) * e.noise[name]
             clipped = np.minimum(np.sum(r * r, axis=1) / r.shape[1], HUBER**2)
             counts = np.maximum(np.bincount(samples.window, minlength=len(w.first)), 1)
             found.misfit[name] = np.bincount(samples.window, clipped, len(w.first)) / counts

@@ -94,8 +94,9 @@ class FlightWindows:
         return replace(self, length=length, samples={n: s.only(s.step < length) for n, s in self.samples.items()})
 
     def chosen(self, windows: Truths) -> FlightWindows:
-        """Some of the windows, by a truth for each."""
-        samples = {name: s.only(windows[s.window], windows) for name, s in self.samples.items()}
+        """Some of the windows, by a truth for each, with the streams that have samples there."""
+        kept = {name: windows[s.window] for name, s in self.samples.items()}
+        samples = {name: self.samples[name].only(own, windows) for name, own in kept.items() if own.any()}
         return replace(self, first=self.first[windows], samples=samples)
 
 
