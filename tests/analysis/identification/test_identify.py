@@ -19,7 +19,7 @@ from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, Log, Stream, log_o
 from tandemlift.core.errors import InputError
 from tandemlift.engines.vehicle_unknowns import driven_numbers, unknowns_of
 from tandemlift.missions import load_mission
-from tandemlift.pictures.report.identification_report import write_identification
+from tandemlift.pictures.report.identification_report import draw_estimates, write_identification
 
 pytest.importorskip("mujoco")
 START = "iris"
@@ -155,6 +155,8 @@ def test_the_identified_mission_is_written_with_its_intervals(found, tmp_path):
 def test_the_page_shows_each_estimate(found, tmp_path):
     text = write_identification(found.as_dict(), tmp_path).read_text("utf-8")
     assert all(row.key in text for row in (*found.rows, *found.whole))
+    (axes,) = draw_estimates([{**found.rows[0]._asdict(), "start": found.rows[0].value / 2.6}]).axes
+    assert axes.lines[1].get_xydata().tolist() == [[axes.get_xlim()[1], 0.0]]  # an arrow at the edge
 
 
 def test_biases_that_walk_within_a_window_widen_the_intervals(log):
