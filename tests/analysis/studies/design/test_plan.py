@@ -43,6 +43,9 @@ def plan():
 def test_rows_are_all_combinations_in_their_order(plan):
     rows = rows_of(plan)
     assert plan.count == len(rows) == 384
+    grid = "2 values of mission.duration × 3 values of admittance.damping"
+    assert plan.sizes == f"2 missions × 2 controllers × 2 cases × {grid} × 4 draws × 2 seeds"
+    assert plan_of(study={"controllers": ["nftsmc", "pid"], "draws": 9}).sizes == "1 mission × 2 controllers × 9 draws"
     assert [row.number for row in rows] == list(range(384))
     orders = itertools.product(range(4), ["calm", "pushed"], [1.0, 2.0], [2.0, 5.0, 8.0], range(4), range(2))
     for row, (variant, case, duration, damping, draw, repeat) in zip(rows, orders, strict=True):

@@ -73,7 +73,11 @@ REFUSED = {  # a study: pieces of its message
                 f"plant.{key}": {"low": 0.9, "high": 1.1, "count": 10**6} for key in ("mass_scale", "inertia_scale")
             }
         },
-        ["1e+12 rows", "1,000,000 of plant.mass_scale x 1,000,000 of plant.inertia_scale", "at most 1e+09"],
+        [
+            "1e+12 rows",
+            "1,000,000 values of plant.mass_scale × 1,000,000 values of plant.inertia_scale",
+            "at most 1e+09",
+        ],
     ),
     "a number that is none": (grid([1.0, float("nan")]), ["grid", "finite numbers", "plant.mass_scale.1 is nan"]),
     "a date": ({"set": {"mission.duration": datetime.date(2026, 1, 1)}}, ["set", "mission.duration is datetime.date"]),

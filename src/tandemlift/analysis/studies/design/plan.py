@@ -114,14 +114,19 @@ class StudyPlan:
     @property
     def sizes(self) -> str:
         """The factors of the number of rows, in words."""
+        study, missions = self.settings.study, len(self.settings.study.missions)
         counts = [
-            (len(self.variants), "missions, controllers and engines"),
+            (len(study.controllers), "controllers"),
+            (len(study.engines), "engines"),
             (len(self.cases), "cases"),
-            *((len(values), f"of {key}") for key, values in self.grid.items()),
+            *((len(values), f"values of {key}") for key, values in self.grid.items()),
             (self.point_count, "draws"),
             (self._seeds, "seeds"),
         ]
-        return " x ".join(f"{count:,} {what}" for count, what in counts if count > 1) or "one flight"
+        several = [f"{count:,} {what}" for count, what in counts if count > 1]
+        if self.count == 1:
+            return "one flight"
+        return " × ".join([f"{missions} mission{'s' if missions > 1 else ''}", *several])
 
     @property
     def _seeds(self) -> int:
