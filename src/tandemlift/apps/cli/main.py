@@ -88,8 +88,8 @@ def cli() -> None:
     Explain a key:    tandemlift explain admittance.damping
     Your controller:  tandemlift run mine.toml --controller my_pd.py
 
-    Exit code 0: done. 2: bad input, one message, nothing written. The help of a
-    command has any others.
+    Exit code 0: done. 2: bad input, one message, nothing written. Each command's
+    help lists its other codes.
     """
 
 

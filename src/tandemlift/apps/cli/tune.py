@@ -112,7 +112,7 @@ def tune(
 @click.option("--persons", default=24, show_default=True, help="Random persons who compare candidates.")
 @search_options
 def train(mission: str, settings: tuple[str, ...], out: str | None, **how: Any) -> None:
-    """Train a policy for MISSION with which a person works least.
+    """Train a policy that minimizes the person's work in MISSION.
 
     A small network that sets the virtual damping (`[compliance.policy]`). The search begins with the mission's own
     weights, or with none: its admittance. Every candidate flies with the same random persons, old and new are then
