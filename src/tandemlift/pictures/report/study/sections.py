@@ -179,7 +179,7 @@ def measured(rows: StudyRows) -> Iterator[QuantityTable]:
         look = shown_quantity(quantity, values)
         lines = [(g.name, *_quantiles(values[g.places], look, quantity.low_is_bad)) for g in tabled_groups(rows)]
         worst = "lowest" if quantity.low_is_bad else "highest"
-        titles = ("", "rows", ("median", "95 % interval"), "5 %", "95 %", worst)
+        titles = ("", "rows", ("median", "95 % interval"), "5th percentile", "95th percentile", worst)
         label = f"{look.words} [{look.unit}]" if look.unit else look.words
         yield QuantityTable(label, quantity.name, quantity.combined, PageTable("counts", titles, lines))
 
@@ -202,7 +202,7 @@ def influence(rows: StudyRows) -> PageTable | None:
     titles = [split_unit(name)[0] for name in rows.ranked]
     columns = list(dict.fromkeys(name for found in rows.ranked.values() for name in found))
     lines = [
-        (name, *(number(round(found[name], 3)) if name in found else DASH for found in rows.ranked.values()))
+        (name, *(f"{found[name]:z.2f}".replace("-", "−") if name in found else DASH for found in rows.ranked.values()))
         for name in columns
     ]
     return PageTable("counts", ("", *titles), lines)
