@@ -11,8 +11,10 @@ from small_studies import made_up, without_file
 
 import tandemlift as tl
 from tandemlift.analysis.studies.design.study_files import load_plan
+from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.core.findings import FINDING_NAMES
 from tandemlift.pictures.report.page import number
+from tandemlift.pictures.report.study.maps import axis_of
 from tandemlift.pictures.report.study.sections import percent, what_was_flown
 from tandemlift.pictures.report.study.study_report import write_study_report
 
@@ -180,6 +182,24 @@ def test_the_mass_is_found_to_matter(page, rows):
     assert shown["plant.mass_scale"][2] == f"{wanted:.2f}".replace("-", "−")
 
 
+def test_bins_of_a_key_that_is_drawn_log_uniform_have_about_as_many_rows_each(study):
+    """Of four bins as wide on a linear scale, the first would have log 3.25 / log 10 = 51 % of the rows."""
+    axis = axis_of(StudyRows(study), "admittance.damping", 2)
+    numbers = np.bincount(axis.cell)
+    assert axis.size == len(numbers) >= 4
+    assert numbers.max() < 1.5 * numbers.min()
+
+
+def captions(page):
+    """The texts below the figures, by their titles."""
+    return dict(re.findall(r"<b>Figure \d\. (.*)\.</b> (.*)</figcaption>", page.text))
+
+
+def test_the_caption_of_maps_names_shares_and_hatched_cells_where_there_are_any(page):
+    assert "the share of rows with a bad outcome, and the median" in captions(page)["Maps"]
+    assert "Hatched cells" not in captions(page)["Maps"]
+
+
 def test_chosen_metrics_are_shown_and_no_others(study, tmp_path):
     text = write_study_report(study, tmp_path / "chosen.html", ["human_work_j"]).read_text("utf-8")
     assert "<h3>Human work [J]</h3>" in text
@@ -205,7 +225,8 @@ def test_small_studies_have_a_page_with_a_map_over_their_grid(grid, title, tmp_p
     page = check_page(write_study_report(study, tmp_path / "report.html"))
     assert page.row("all rows")[:2] == ["all rows", str(math.prod(map(len, grid.values())))]
     assert "None N" not in page.text  # of a push that a row does not have
-    assert re.findall(r"<b>Figure \d\. (.*)\.</b>", page.text)[1:] == [title] * bool(title)
+    assert list(captions(page))[1:] == [title] * bool(title)
+    assert "bad outcome" not in captions(page).get(title, "")  # of which there are none
 
 
 def test_a_study_all_of_whose_flights_failed_has_a_page_with_the_ten_that_failed_first(tmp_path):
@@ -215,6 +236,7 @@ def test_a_study_all_of_whose_flights_failed_has_a_page_with_the_ten_that_failed
     study = made_up({"study": STUDY["study"] | {"draws": 20}, "draw": STUDY["draw"]}, tmp_path / "crashed", crashed)
     page = check_page(write_study_report(study, tmp_path / "report.html"))
     assert [row[0] for row in page.rows if row and row[0].isdigit()] == [str(number) for number in range(10)]
+    assert captions(page)["Maps"].endswith("Hatched cells have no row.")  # 20 draws leave some of 16 cells empty
 
 
 def test_a_study_that_is_not_finished_says_so_and_an_empty_one_is_refused(study, tmp_path):

@@ -7,12 +7,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.axis import Axis
+from matplotlib.axis import Axis, XAxis
 from matplotlib.collections import QuadMesh
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
+from tandemlift.analysis.studies.design.distributions import LogUniform
 from tandemlift.analysis.studies.design.statistics import share
 from tandemlift.analysis.studies.study_rows import Places, RowGroup, StudyRows
 from tandemlift.core.types import Array
@@ -26,18 +27,6 @@ MOST_VALUES = 24  # of an axis without bins
 MOST_LABELS = 8
 BINS = (4, 20)
 PER_CELL = 25  # rows that a cell should have
-CAPTION = Caption(
-    "Maps",
-    "Over two of the parameters that vary: the share of rows with a bad outcome, and the median of a quantity in those "
-    "without. Values of a grid have a cell each; drawn values are binned. Hatched cells have no row.",
-    "Heat maps over two parameters, a row for each group of rows.",
-)
-CURVE_CAPTION = Caption(
-    "Over the parameter",
-    "Over the parameter that varies: the share of rows with a bad outcome with its 95 % interval, and the median of a "
-    "quantity in those without, with the band from 5 % to 95 % of them. Drawn values are binned.",
-    "Panels over the parameter: share of bad outcomes, and median and band of quantities.",
-)
 
 
 class MapAxis(NamedTuple):
@@ -48,6 +37,7 @@ class MapAxis(NamedTuple):
     size: int
     edges: Array | None
     texts: tuple[str, ...]
+    is_log: bool = False  # bins have equal widths on a logarithmic scale
 
 
 def axis_of(rows: StudyRows, column: str, axes: int) -> MapAxis:
@@ -62,9 +52,11 @@ def axis_of(rows: StudyRows, column: str, axes: int) -> MapAxis:
         return MapAxis(shown, cell, len(known), None, tuple(f"{v:.4g}".replace("-", "−") for v in known))
     cells = len(values) / PER_CELL / len(compared(rows, MOST_GROUPS))
     count = int(np.clip(cells ** (1.0 / axes), *BINS))
-    edges = np.linspace(np.nanmin(values), np.nanmax(values), count + 1)
+    keys = [key for key, drawn in rows.study.plan.drawn.items() if isinstance(drawn, LogUniform)]
+    is_log = bool(known[0] > 0.0) and any(f"{column}.".startswith(f"{key}.") for key in keys)
+    edges = (np.geomspace if is_log else np.linspace)(known[0], known[-1], count + 1)
     cell = np.where(finite, np.clip(np.searchsorted(edges, values, "right") - 1, 0, count - 1), -1)
-    return MapAxis(shown, cell.astype(np.intp), count, edges, ())
+    return MapAxis(shown, cell.astype(np.intp), count, edges, (), is_log)
 
 
 def map_columns(rows: StudyRows) -> list[str]:
@@ -123,16 +115,22 @@ def _edges(of: MapAxis) -> Array:
 
 
 def _ticks(axis: Axis, of: MapAxis) -> None:
-    """Ticks of an axis: at some of its values, or at round numbers."""
+    """Scale and ticks of an axis: at some of its values, or at round numbers."""
     step = -(-of.size // MOST_LABELS)
     if of.edges is None:
         axis.set_ticks(np.arange(0, of.size, step), of.texts[::step])
-    else:
-        axis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
+        return
+    if of.is_log:
+        (axis.axes.set_xscale if isinstance(axis, XAxis) else axis.axes.set_yscale)("log")
+        axis.set_major_formatter("{x:g}")
+        axis.set_minor_formatter(NullFormatter())
+    far = of.is_log and of.edges[-1] > 5.0 * of.edges[0]
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)) if far else MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
 
 
 def _map(ax: Axes, x: MapAxis, y: MapAxis, formed: Array, colours: Mapping[str, Any]) -> QuadMesh:
-    ax.patch.set(hatch="////", edgecolor=GREY, lw=0.0)
+    if np.isnan(formed).any():
+        ax.patch.set(hatch="////", edgecolor=GREY, lw=0.0)
     image = ax.pcolormesh(_edges(x), _edges(y), np.ma.masked_invalid(formed), rasterized=True, **colours)
     _ticks(ax.xaxis, x)
     _ticks(ax.yaxis, y)
@@ -177,7 +175,8 @@ def draw_maps(rows: StudyRows, columns: Sequence[str]) -> Figure:
 def _places(axis: MapAxis) -> Array:
     """The places of an axis' cells: at numbers of its values, or in the middle of its bins."""
     if axis.edges is not None:
-        return np.asarray(0.5 * (axis.edges[1:] + axis.edges[:-1]))
+        low, high = axis.edges[:-1], axis.edges[1:]
+        return np.asarray(np.sqrt(low * high) if axis.is_log else 0.5 * (low + high))
     try:
         return np.array([float(text.replace("−", "-")) for text in axis.texts])
     except ValueError:
@@ -217,6 +216,23 @@ def draw_curves(rows: StudyRows, column: str) -> Figure:
             axes[0].set_title(group.name, loc="left", fontsize=points(8.5))
     for ax in grid[-1]:
         ax.set_xlabel(axis.shown.label)
-        if column in rows.texts:
-            ax.set_xticks(np.arange(axis.size), axis.texts)
+        if column in rows.texts or axis.is_log:
+            _ticks(ax.xaxis, axis)
     return figure
+
+
+def caption_of(rows: StudyRows, figure: Figure, *, over_two: bool) -> Caption:
+    """The caption of the maps over two parameters, or of the curves over the only one; it names what is drawn."""
+    bad, drawn = bool(rows.bad.any()), list[str]()
+    if bad:
+        drawn.append("the share of rows with a bad outcome" + ("" if over_two else " with its 95 % interval"))
+    if rows.quantities:
+        band = "" if over_two else ", with the band from the 5th to the 95th percentile"
+        drawn.append(f"the median of a quantity{' in those without' if bad else ''}{band}")
+    said = f"{', and '.join(drawn)}."
+    if not over_two:
+        text = f"Over the parameter that varies: {said} Drawn values are binned."
+        return Caption("Over the parameter", text, "Curves over the parameter, a row for each group of rows.")
+    text = f"Over two of the parameters that vary: {said} Values of a grid have a cell each; drawn values are binned."
+    text += " Hatched cells have no row." if any(ax.patch.get_hatch() for ax in figure.axes) else ""
+    return Caption("Maps", text, "Heat maps over two parameters, a row for each group of rows.")

@@ -31,8 +31,8 @@ def _figures(rows: StudyRows, folder: Path | None) -> list[ShownFigure]:
     columns = maps.map_columns(rows)
     if columns and (rows.quantities or rows.bad.any()):
         both = len(columns) == 2
-        drawn["maps"] = maps.draw_maps(rows, columns) if both else maps.draw_curves(rows, columns[0])
-        captions["maps"] = maps.CAPTION if both else maps.CURVE_CAPTION
+        figure = maps.draw_maps(rows, columns) if both else maps.draw_curves(rows, columns[0])
+        drawn["maps"], captions["maps"] = figure, maps.caption_of(rows, figure, over_two=both)
     return shown_figures(drawn, captions, folder)
 
 
