@@ -12,6 +12,7 @@ from small_studies import made_up, without_file
 import tandemlift as tl
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.study_rows import StudyRows
+from tandemlift.analysis.studies.table import outcome_lines
 from tandemlift.core.findings import FINDING_NAMES
 from tandemlift.pictures.report.page import number
 from tandemlift.pictures.report.study.maps import axis_of
@@ -109,8 +110,10 @@ def test_without_a_failure_the_verdict_says_which_of_its_bounds_is_one_sided(tmp
     study = made_up({key: STUDY[key] for key in ("study", "draw")}, tmp_path / "good", good)
     head = check_page(write_study_report(study, tmp_path / "good.html")).text.partition("</header>")[0]
     one, two = (percent(1.0 - (1.0 - confidence) ** (1.0 / 400)) for confidence in (0.95, 0.975))
-    assert "None of 400 flights failed" in head
-    assert f"at most {one} do (one-sided bound; the intervals in the tables are two-sided: 0 to {two})" in head
+    having = (study.to_pandas()["finding_kinds"] != "").sum()
+    assert f'"verdict missed"><strong>None of 400 flights failed; {having} have findings</strong>' in head
+    assert f", most often {FINDING_NAMES[0]} ({percent(having / 400)}). With" in head
+    assert f"at most {one} fail (one-sided bound; the intervals in the tables are two-sided: 0 to {two})" in head
 
 
 def test_quantiles_are_those_of_the_rows_that_went_well(page, rows):
@@ -129,8 +132,10 @@ def test_quantiles_are_those_of_the_rows_that_went_well(page, rows):
         assert line[2].split("\n")[1] == f"{number(float(bounds.low))} to {number(float(bounds.high))}"
 
 
-def test_findings_are_counted_by_kind(page, rows):
+def test_findings_are_counted_by_kind_on_the_page_and_in_the_terminal(page, study, rows):
     (shown,) = [row for row in page.rows if row and row[0].startswith(f"{FINDING_NAMES[0]}\n")]
+    share = shown[2].partition("\n")[0]
+    assert f"most frequent findings of 792 flights: {FINDING_NAMES[0]} ({share})" in list(outcome_lines(study))
     found = rows["finding_kinds"] == FINDING_NAMES[0]
     assert int(shown[1].replace("\u202f", "")) == int(found.sum())
     flew = rows["outcome"] != "refused"

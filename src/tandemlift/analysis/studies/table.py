@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from tandemlift.analysis.studies.chunk_files import ChunkFile, about, columns_in, floats_of, read
-from tandemlift.analysis.studies.dataset import outcome_shares, study_html, to_xarray
+from tandemlift.analysis.studies.dataset import outcome_shares, percent, study_html, to_xarray
 from tandemlift.analysis.studies.design.keys import columns_of
 from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.design.settings import REFUSED, StudySettings
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 
 BAD = (*FAILURES, REFUSED)
 """Outcomes of rows that went wrong: flights that failed, and rows that could not be flown."""
+MOST_FINDINGS = 3  # kinds that the terminal lists
 
 
 @dataclass(frozen=True, eq=False)
@@ -224,12 +226,19 @@ def load_study(folder: str | os.PathLike[str]) -> Study:
 
 
 def outcome_lines(study: Study) -> Iterator[str]:
-    """How often each outcome occurred, with its interval; the first refused row; the number of missing rows."""
-    read = study.read(["row", "outcome", "reason"])
+    """How often each outcome occurred, with its interval; frequent findings; the first refused row; missing rows."""
+    read = study.read(["row", "outcome", "reason", "finding_kinds"])
     shares = outcome_shares(read["outcome"])
     yield f"{'outcome':12}{'rows':>10}   share, and its two-sided 95 % interval"
     for outcome, s in shares.items():
         yield f"{outcome:12}{s.number:>10,}   {100 * s.value:.4g} % ({100 * s.low:.3g} to {100 * s.high:.3g} %)"
+    flown = len(read) - (shares[REFUSED].number if REFUSED in shares else 0)
+    kinds = Counter[str]()
+    for one in read["finding_kinds"].value_counts().to_pylist():
+        kinds.update(dict.fromkeys(filter(None, (one["values"] or "").split(",")), one["counts"]))
+    if kinds:
+        said = ", ".join(f"{kind} ({percent(number / flown)})" for kind, number in kinds.most_common(MOST_FINDINGS))
+        yield f"most frequent findings of {flown:,} flights: {said}"
     if REFUSED in shares:
         first = read["outcome"].index(REFUSED).as_py()
         yield f"row {read['row'][first]} is refused: {read['reason'][first]}"

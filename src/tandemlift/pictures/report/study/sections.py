@@ -49,24 +49,30 @@ def share_cell(part: Share) -> Cell:
 
 
 def verdict(rows: StudyRows) -> Verdict:
-    """The share of failed flights with its interval; the numbers of refused and missing rows."""
+    """The numbers of flights that failed and that have findings, with bounds; those of refused and missing rows."""
     flown = len(rows) - int(rows.refused.sum())
     failed = int(rows.bad.sum()) - int(rows.refused.sum())
     head, said = "No flight", "."
     if failed:
         part = share(failed, flown)
         head = f"{count(failed)} of {count(flown)} flights failed"
-        said = f": {percent(part.value)}, with 95 % confidence between {percent(part.low)} and {percent(part.high)}."
+        low, high = percent(part.low), percent(part.high)
+        said = f". {percent(part.value)} fail, with 95 % confidence between {low} and {high}."
     elif flown:
         most, high = percent(upper_bound(0, flown)), percent(share(0, flown).high)
         head = f"None of {count(flown)} flights failed"
-        said = f": with 95 % confidence at most {most} do "
+        said = f". With 95 % confidence, at most {most} fail "
         said += f"(one-sided bound; the intervals in the tables are two-sided: 0 to {high})."
+    if kinds := rows.finding_counts:
+        kind, has = next(iter(kinds.items()))
+        having = int(np.any(list(kinds.values()), axis=0).sum())
+        head += f"; {count(having)} {'has' if having == 1 else 'have'} findings"
+        said = f", most often {kind} ({percent(int(has.sum()) / flown)}){said}"
     if refused := int(rows.refused.sum()):
         said += f" {count(refused)} rows could not be flown and were refused."
     if missing := rows.study.missing:
         said += f" {count(missing)} of {count(rows.study.plan.count)} rows are missing."
-    return Verdict(head, said, "missed" if failed or refused or missing else "")
+    return Verdict(head, said, "missed" if failed or refused or missing or kinds else "")
 
 
 def what_was_flown(study: Study) -> Iterator[tuple[str, str]]:
