@@ -64,7 +64,8 @@ METRIC_GROUPS: tuple[MetricGroup, ...] = (
             "human_work_j": Metric("J", "work of the person's push: integral of F·v, v of the point pushed"),
             "push_triggers_after_10s": Metric(
                 "1",
-                "number of pushes that interactive guidance began to follow, including one followed at 10 s",
+                "number of pushes that interactive guidance began to follow, including one followed at 10 s; `null` "
+                "with scheduled guidance, which follows each push without a trigger",
             ),
             "rotor_saturated_share": Metric("1", "fraction of steps with any rotor at a limit; 0 with ideal actuators"),
             "final_position_m": Metric("m", "position at the end", AXES),

@@ -91,6 +91,8 @@ def metrics_of(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     formed["final_position_m"] = list(flown.flight_state.state.position)
     formed["final_reference_m"] = list(last.reference_position)
     formed["command_at_start"] = [first.thrust, *first.moment]
+    if p.mission.pilot.guidance == "scheduled":  # its pushes have no trigger
+        formed["push_triggers_after_10s"] = None
     formed |= _detection_metrics(p, flown)
     formed = {name: _finite_or_none(value) for name, value in formed.items()}
     highest = max(early.highest, late.highest)

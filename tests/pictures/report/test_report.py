@@ -151,6 +151,8 @@ def test_every_metric_is_in_the_table_with_its_value_and_unit(page, paper):
     assert metrics.pop("findings") == []  # a list of their own
     assert metrics.pop("failure") == ""
     assert list(rows) == list(metrics)
+    assert metrics.pop("push_triggers_after_10s") is None  # the guidance is scheduled
+    assert rows["push_triggers_after_10s"][1] == "–"
     for name, value in metrics.items():
         if name == "command_at_start":
             continue
