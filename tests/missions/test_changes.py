@@ -18,6 +18,8 @@ LITERALS = {
     "'single'": "single",
     "flight-ready": "flight-ready",
     "+": "+",
+    "-2.5e-3 N s/m": "-2.5e-3 N s/m",
+    "20s": "20s",
     "[[1, 2.5], [3]]": [[1, 2.5], [3]],
     "{height = 2, lift_start = 1.5}": {"height": 2, "lift_start": 1.5},
     "2024-01-01": datetime.date(2024, 1, 1),

@@ -37,6 +37,8 @@ def of_parts(name: str, toml: str, *pieces: str) -> Case:
 
 WRONG_TYPES = [
     case("text for a number", "mission.duration = '5'", "mission.duration", '"5"', "a number > 0", "without quotes"),
+    case("a quantity", "admittance.damping = '2 N·s/m'", '"2 N·s/m"', "in N s/m: write the number alone, 2"),
+    case("a quantity in another unit", "mission.duration = '2 min'", '"2 min"', "in s: write the number alone"),
     case("bool for a number", "mission.duration = true", "mission.duration = true", "a number > 0"),
     case(
         "number for a bool", "admittance.hold_after_release = 1", "admittance.hold_after_release = 1", "true or false"

@@ -75,7 +75,9 @@ def toml_tables(text: str) -> dict[str, Any]:
     return tomllib.loads(text)
 
 
-WORD = r"\+|[A-Za-z][A-Za-z0-9_.+-]*"  # a string that --set accepts without quotes
+QUANTITY = r"([-+]?[0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?) ?([^\W\d_][\w /·*^-]*|[°%])"  # a number with a unit
+# a string that --set accepts without quotes; a quantity, so that it is refused with the unit of its key
+UNQUOTED = rf"\+|[A-Za-z][A-Za-z0-9_.+-]*|{QUANTITY}"
 
 
 def parse_setting(text: str) -> tuple[str, Any]:
@@ -90,7 +92,7 @@ def parse_setting(text: str) -> tuple[str, Any]:
     try:
         parsed = toml_tables(f"value = {literal}")
     except (ValueError, RecursionError):
-        if re.fullmatch(WORD, literal):
+        if re.fullmatch(UNQUOTED, literal):
             return key, literal
         parsed = {}
     if list(parsed) != ["value"]:

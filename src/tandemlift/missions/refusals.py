@@ -11,6 +11,8 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from tandemlift.core.errors import dotted, nearest, shown
+from tandemlift.core.files import QUANTITY
+from tandemlift.core.keys import description_of
 from tandemlift.missions.changes import MISSING, Place, value_at
 from tandemlift.missions.keys import Model, allowed, plain, table_in
 
@@ -99,8 +101,13 @@ def _hint(problem: ErrorDetails, field: Any, given: object) -> str:
         options = get_args(options[0]) or options  # of an entry of a list
         near = nearest(given, map(str, options))
         return f". Did you mean {shown(near)}?" if near else ""
-    if isinstance(given, str) and kind.startswith(("float_", "int_", "axes")) and re.match(r"[-+.\d[]", given):
-        return ", without quotes"
+    if isinstance(given, str) and kind.startswith(("float_", "int_", "axes")):
+        if quantity := re.fullmatch(QUANTITY, given):
+            unit = (field and description_of(field).unit) or "1"
+            bare = [re.sub("[ ·*]", "", one) for one in (unit, quantity[2])]
+            number = f", {quantity[1]}" if bare[0] == bare[1] else ""
+            return f"{'' if unit == '1' else f', in {unit}'}: write the number alone{number}"
+        return ", without quotes" if re.match(r"[-+.\d[]", given) else ""
     if kind == "finite_number" or (kind == "float_type" and isinstance(given, int) and not isinstance(given, bool)):
         return ", and finite"
     if isinstance(given, Mapping) and kind == "tuple_type" and table_in(field.annotation):
