@@ -72,8 +72,9 @@ WRONG_NUMBERS = [
     case("push of no width", "pushes = [{force = [1, 0, 0], time = 1, sigma = 0}]", "pushes.0.sigma = 0", "> 0"),
     case("exponent below one", "controller.gains.a = 0.5", "controller.gains.a = 0.5", "each ≥ 1"),
     case("no boundary layer", "controller.boundary_layer = 0", "controller.boundary_layer = 0", "6 numbers, each > 0"),
-    case("steep roll", "initial.euler = [1.49, 0, 0]", "initial.euler = [1.49, 0, 0]", "within ±85°"),
-    case("roll of 85 degrees", "initial.euler = -1.4835298641951802", "initial.euler = -1.4835", "within ±85°"),
+    case("steep roll", "initial.euler = [1.49, 0, 0]", "initial.euler = [1.49, 0, 0]", "1.49 rad is 85.4°"),
+    case("degrees", "initial.euler = [0, -10, 0]", "a pitch", "-10 rad is -573°. Did you mean -0.1745 (-10°)?"),
+    case("roll of 85 degrees", "initial.euler = -1.4835298641951802", "initial.euler = -1.4835", "(±85°)"),
     case("negative scale", "plant.inertia_scale = [1, -1, 1]", "plant.inertia_scale.1 = -1", "≥ 1e-06 and ≤ 1e+06"),
 ]
 

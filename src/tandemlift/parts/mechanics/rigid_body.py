@@ -68,10 +68,14 @@ def inertia_value(J: NDArray[np.floating]) -> Inertia:
 
 
 def _upright(euler: Triple) -> Triple:
-    if abs(euler[0]) >= math.radians(85.0):
-        raise must("roll", "have a roll (the first angle) within ±85° (±1.4835 rad), where the angles are regular")
-    if abs(euler[1]) >= math.radians(85.0):
-        raise must("pitch", "have a pitch (the second angle) within ±85° (±1.4835 rad), or the rotors push downwards")
+    reasons = ("where the angles are regular", "or the rotors push downwards")
+    for name, angle, reason in zip(("roll", "pitch"), euler[:2], reasons, strict=True):
+        if abs(angle) >= math.radians(85.0):
+            words = f"have a {name} within ±1.4835 rad (±85°), {reason}; {angle:g} rad is {math.degrees(angle):.3g}°"
+            near = (
+                f". Did you mean {math.radians(angle):.4g} ({angle:g}°)?" if 90.0 > abs(angle) > 0.5 * math.pi else ""
+            )
+            raise must(name, words + near)
     return euler
 
 
@@ -86,7 +90,7 @@ class InitialTable(Table):
         (0.0, 0.0, 0.0),
         "rad",
         "roll, pitch and yaw; R = Rz(yaw) Rx(roll) Ry(pitch)",
-        rule="roll and pitch within ±85°",
+        rule="roll and pitch within ±1.4835 rad (±85°)",
         example=[0.15, -0.15, 0.2],
     )
     rates: Axes3 = key((0.0, 0.0, 0.0), "rad/s", "angular velocity, body axes")
