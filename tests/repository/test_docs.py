@@ -21,7 +21,9 @@ PAGES += [ROOT / "docs" / "reference" / f"{name}.md" for name in ("checks", "fli
 # these need other programs or a minute, and have tests of their own
 ELSEWHERE = ("own-pilot-in-ros", "scaling", "certify", "excite-a-vehicle")
 CODE = [page for page in PAGES if page.stem not in ELSEWHERE and "\n```python\n" in page.read_text("utf-8")]
-CODE.append(ROOT / "README.md")  # reference/controllers.md has tests of its own; the site's build runs the tutorials
+# reference/controllers.md has tests of its own; the site's build runs the tutorials
+QUIET = pytest.mark.filterwarnings("error::tandemlift.core.errors.FlightWarning")
+CODE.append(pytest.param(ROOT / "README.md", marks=QUIET, id="README"))
 FILE = re.compile(r"^<!-- (\S+\.\w+) -->\n```\w+\n(.*?)^```", flags=re.M | re.S)
 PYTHON = re.compile(r"^```python\n(.*?)^```$(?:\n\n```text\n(.*?)^```)?", flags=re.M | re.S)
 
