@@ -6,38 +6,58 @@ The other recipes name the tests that follow them.
 from __future__ import annotations
 
 import json
+import re
 
 import pytest
 from edited_package import EditedPackage
 from listings import LAW as LISTED_CONTROLLER
+from repository import ROOT
 
+PACKAGE = ROOT / "src" / "tandemlift"
 Edits = dict[str, list[tuple[str, str]]]  # texts to be replaced by others, by file; "" by a new file's text
 
 
 SPIN_UP = "    spin_up_time: NonNegative = key("
-NEW_KEY = '    idle_time: NonNegative = key(0.2, "s", "time of idling after a landing", source="chosen: short")\n'
-KEY: Edits = {"parts/guidance/compliance_table.py": [(SPIN_UP, NEW_KEY + SPIN_UP)]}
-KEY_IS_KNOWN = """
+NEW_KEY = '    max_force: NonNegative = key(100.0, "N", "largest push that moves the reference", source="chosen")\n'
+KEY: Edits = {
+    "parts/guidance/compliance_table.py": [
+        (SPIN_UP, NEW_KEY + SPIN_UP),
+        ("vec3(c.max_jerk), c.braking_gain)", "vec3(c.max_jerk), c.braking_gain, c.max_force)"),
+    ],
+    "parts/interaction/compliance.py": [
+        ("    jerk: Vec3\n    braking_gain: Number\n", "    jerk: Vec3\n    braking_gain: Number\n    force: Number\n"),
+        ("with_policy(eased, output.value)", "with_policy(eased, clip(output.value, -k.limits.force, k.limits.force))"),
+    ],
+}
+KEY_HAS_ITS_EFFECT = """
+import numpy as np
 import tandemlift as tl
 from tandemlift.missions.reference import explained
 from tandemlift.missions.schema import mission_schema
 from tandemlift.missions.reference import template_text
 
-name, meaning = "compliance.idle_time", "time of idling after a landing"
-assert explained(name).split() == (
-    f"{name} [s]: {meaning} Allowed: a number ≥ 0. Default: 0.2 (chosen: short).".split()), explained(name)
-said = mission_schema()["properties"]["compliance"]["properties"]["idle_time"]
-assert (said["minimum"], said["default"]) == (0, 0.2) and meaning in said["description"]
-assert any("idle_time = 0.2" in line and meaning in line for line in template_text().splitlines())
-changes = [{"time": 1.0, "key": name, "value": 0.3}]
-mission = tl.load_mission("iris", {name: 0.1, "changes": changes, "pilot.guidance": "interactive"})
-assert mission.compliance.idle_time == 0.1
+name, meaning = "compliance.max_force", "largest push that moves the reference"
+assert explained(name).split() == f"{name} [N]: {meaning} Allowed: a number ≥ 0. Default: 100.0 (chosen).".split()
+said = mission_schema()["properties"]["compliance"]["properties"]["max_force"]
+assert (said["minimum"], said["default"]) == (0, 100) and meaning in said["description"]
+assert any("max_force = 100.0" in line and meaning in line for line in template_text().splitlines())
+tl.load_mission("iris", {"changes": [{"time": 1.0, "key": name, "value": 0.3}], "pilot.guidance": "interactive"})
 try:
     tl.load_mission("iris", {name: -1.0})
 except tl.InputError as error:
     assert f"{name} = -1.0: must be a number ≥ 0" in str(error), error
 else:
     raise AssertionError("a value that is not allowed")
+
+def speed(most):
+    # the largest speed of the reference, and the one that F/C allows [m/s]
+    changes = {"pilot.guidance": "interactive", "mission.duration": 8.0, name: most}
+    mission = tl.load_mission("one-push", changes)
+    return np.abs(tl.fly(mission)["reference_velocity"]).max(), most / min(mission.admittance.damping)
+
+free, _ = speed(100.0)
+slow, most = speed(0.5)
+assert 0.9 * most < slow <= most < 0.5 * free, (free, slow, most)  # M v' + C v = F: below F/C, and near it
 """
 
 
@@ -119,23 +139,23 @@ assert error_of_height([{"name": "rangefinder"}]) < 0.02
 
 FINDING: Edits = {
     "core/findings.py": [
-        ('    "lift-refused",\n]', '    "lift-refused",\n    "high",\n]'),
+        ('    "lift-refused",\n]', '    "lift-refused",\n    "ends-high",\n]'),
         (
             "KINDS = (\n",
-            'KINDS = (\n    FindingKind("high", "the vehicle was higher than 1 m", "lower `phases.height`"),\n',
+            'KINDS = (\n    FindingKind("ends-high", "the vehicle ended above 1 m", "lower `phases.height`"),\n',
         ),
     ],
     "simulation/findings.py": [
         (
             "        *_touches(flight_state),\n",
-            "        *_high(flight_state, steps * p.dt),\n        *_touches(flight_state),\n",
+            "        *_ends_high(flight_state, steps * p.dt),\n        *_touches(flight_state),\n",
         ),
         (
             "def _oscillations(",
-            """def _high(flight_state: FlightState, end: float) -> Iterator[Finding]:
-    highest = flight_state.metrics.highest
-    if highest > 1.0:
-        yield finding("high", f"the vehicle was at {highest:.3g} m", time=end, value=highest, unit="m", limit=1.0)
+            """def _ends_high(flight_state: FlightState, end: float) -> Iterator[Finding]:
+    height = flight_state.state.position.z
+    if height > 1.0:
+        yield finding("ends-high", f"the vehicle ended at {height:.3g} m", time=end, value=height, unit="m", limit=1.0)
 
 
 def _oscillations(""",
@@ -146,11 +166,11 @@ FINDING_IS_FOUND = """
 import tandemlift as tl
 
 def found(height, **more):
-    mission = tl.load_mission("hover", {"mission.duration": 1.0, "initial.position": [0.0, 0.0, height], **more})
+    mission = tl.load_mission("hover", {"mission.duration": 12.0, "phases.height": height, **more})
     return [f.kind for f in tl.fly(mission).findings]
 
-assert "high" in found(1.5) and "high" not in found(0.5)
-assert "high" not in found(1.5, **{"findings.ignore": ["high"]})
+assert "ends-high" in found(1.5) and "ends-high" not in found(0.5)
+assert "ends-high" not in found(1.5, **{"findings.ignore": ["ends-high"]})
 """
 
 
@@ -256,7 +276,7 @@ np.testing.assert_allclose(point["position"], rigid["position"], atol=1e-3)
 """
 
 RECIPES = {
-    "a key touches one file": (KEY, KEY_IS_KNOWN),
+    "a key touches the file of its table, and of its law where that stands apart": (KEY, KEY_HAS_ITS_EFFECT),
     "a variant of a law touches its law, its key and where it is chosen": (LAW, LAW_FLIES),
     "a sensor that an estimator uses touches its law and the estimator": (SENSOR, SENSOR_IS_USED),
     "a finding touches two files": (FINDING, FINDING_IS_FOUND),
@@ -291,3 +311,18 @@ def wrong(tmp_path_factory) -> dict[str, str]:
 @pytest.mark.parametrize("recipe", RECIPES)
 def test_a_recipe_does_what_it_says(recipe, wrong):
     assert recipe not in wrong, wrong[recipe]
+
+
+RECIPES_TEXT = (ROOT / "CONTRIBUTING.md").read_text("utf-8").partition("## Recipes\n")[2].partition("\n## ")[0]
+
+
+def test_the_files_that_the_recipes_name_are_there():
+    paths = set(re.findall(r"`([\w/]+/\w+\.(?:py|md|ts|toml))`", RECIPES_TEXT.replace("/NAME.py", "/push.py")))
+    folders = (ROOT, PACKAGE, PACKAGE / "pictures" / "report")
+    assert [path for path in paths if not any((folder / path).is_file() for folder in folders)] == []
+
+
+def test_the_recipe_of_drag_names_all_files_that_repeat_it():
+    repeats = re.compile(r"drag_force \*|\*vehicle\.drag\.force|quadratic_drag\(|drag_coefficient for q in")
+    files = {p.relative_to(PACKAGE).as_posix() for p in PACKAGE.rglob("*.py") if repeats.search(p.read_text("utf-8"))}
+    assert files == set(re.findall(r"`(\S+\.py)`", RECIPES_TEXT.partition("law of drag**")[2].partition("\n\n**")[0]))

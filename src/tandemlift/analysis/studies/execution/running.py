@@ -1,4 +1,4 @@
-"""Flies the chunks of a study, or of other work, one by one on workers, and skips finished ones.
+"""Flies the chunks of a study, or of other work, on threads or an executor (Dask's), and skips finished ones.
 
 Only the files of finished chunks record progress. A study can thus be stopped, killed, restarted and distributed over
 processes and machines that share a folder, and gives the same rows.

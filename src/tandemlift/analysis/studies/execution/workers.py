@@ -1,4 +1,4 @@
-"""Workers that fly the chunks of a study: threads of this process, or any executor of `concurrent.futures`.
+"""Workers that fly the chunks of a study: threads of this process, or an executor, as of `concurrent.futures` or Dask.
 
 Another process receives a chunk as bytes, together with the digest of its sources, and compares that digest before it
 unpacks them. It needs this package alone: no file of the study, and no package that reads or writes its table.
