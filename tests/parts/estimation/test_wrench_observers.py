@@ -12,11 +12,12 @@ from scipy.signal import TransferFunction, step
 from scipy.spatial.transform import Rotation
 
 from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
-from tandemlift.parts.estimation.wrench.delay import DelayState, delay_of, delayed
+from tandemlift.parts.estimation.wrench.delay import delay_of, delayed
 from tandemlift.parts.estimation.wrench.kalman import natural_frequency, steady_gain, turning_gains
 from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation, observe
 from tandemlift.parts.estimation.wrench.start_observer import SampleNoise, start_wrench_observer
 from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable
+from tandemlift.parts.mechanics.low_pass import LowPassState
 from tandemlift.parts.mechanics.rigid_body import State, Wrench
 
 MASS, INERTIA, GRAVITY, H = 3.5, (3.2, 0.06, 3.3), 9.81, 1e-3
@@ -224,7 +225,7 @@ def test_the_unscented_filter_is_that_of_filterpy_with_rotations_by_scipy(tumbli
 def test_the_delay_of_the_thrusts_is_an_all_pass_of_that_delay():
     """Against a delayed sine, in steps, by amplitude and phase; and SciPy's response of the Padé approximant."""
     T = 0.0105
-    k, frequency, memory, found = delay_of(T, H), 60.0, DelayState(0.0, 0.0), []
+    k, frequency, memory, found = delay_of(T, H), 60.0, LowPassState(0.0, 0.0), []
     for i in range(3000):
         y, memory = delayed(k, memory, math.sin(frequency * (i + 0.5) * H))
         found.append(y)
@@ -232,9 +233,20 @@ def test_the_delay_of_the_thrusts_is_an_all_pass_of_that_delay():
     fit = np.linalg.lstsq(np.stack([np.sin(frequency * t), np.cos(frequency * t)], 1)[1000:], found[1000:])[0]
     assert np.hypot(*fit) == pytest.approx(1.0, abs=0.02)
     assert -math.atan2(fit[1], fit[0]) / frequency == pytest.approx(T, abs=5e-4)
-    memory, rising = DelayState(0.0, 0.0), []
+    memory, rising = LowPassState(0.0, 0.0), []
     for _ in range(60):
         y, memory = delayed(k, memory, 1.0)
         rising.append(y)
     pade = TransferFunction([T * T / 12.0, -T / 2.0, 1.0], [T * T / 12.0, T / 2.0, 1.0])
     assert rising == pytest.approx(step(pade, T=H * np.arange(61))[1][1:], abs=1e-9)
+
+
+def test_a_constant_thrust_stays_as_it_is_when_the_believed_delay_changes():
+    memory = LowPassState(0.0, 0.0)
+    for T in (0.01, 0.02, 0.005):
+        k, found = delay_of(T, H), []
+        for _ in range(200):
+            y, memory = delayed(k, memory, 34.0)
+            found.append(y)
+        assert found[-1] == pytest.approx(34.0, abs=1e-9)
+        assert T == 0.01 or found == pytest.approx([34.0] * 200, abs=1e-6)
