@@ -19,10 +19,9 @@ from tandemlift.parts.estimation.wrench import (
     hybrid,
     kalman,
     momentum,
-    nonlinear_disturbance,
     wind_compensation,
 )
-from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation, observe
+from tandemlift.parts.estimation.wrench.observation import ExternalWrench, NominalBody, Observation, observe
 from tandemlift.parts.guidance import guidance
 from tandemlift.parts.interaction import policy
 from tandemlift.parts.mechanics import low_pass, parts, rotation
@@ -126,16 +125,11 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
         (policy.Policy(each(14)(*[0.0] * 14), each(6)(*[0.0] * 6), 0.0, V), low_pass.LowPassState(V, V), V, 0.0),
     ),
     "pure delay": (delay.delayed, (LOW, low_pass.LowPassState(V, V), V)),
-    "momentum": (observe, (momentum.MomentumObserver(VEHICLE, V, V), momentum.MomentumState(V, V, 0.0), OBSERVED)),
-    "hybrid": (observe, (hybrid.HybridObserver(VEHICLE, V, V), hybrid.HybridState(V, V, 0.0), OBSERVED)),
-    "disturbance": (
+    "momentum": (
         observe,
-        (
-            nonlinear_disturbance.NonlinearObserver(VEHICLE, V, V, V, V),
-            nonlinear_disturbance.AuxiliaryState(V, V, 0.0),
-            OBSERVED,
-        ),
+        (momentum.MomentumObserver(VEHICLE, V, V), momentum.MomentumState(ExternalWrench(V, V), V, V, 0.0), OBSERVED),
     ),
+    "hybrid": (observe, (hybrid.HybridObserver(VEHICLE, V, V), hybrid.HybridState(V, V, V, 0.0), OBSERVED)),
     "kalman": (observe, (kalman.KalmanObserver(VEHICLE, V, V, V), kalman.KalmanState(V, V, V, 0.0), OBSERVED)),
     "extended kalman": (
         observe,
