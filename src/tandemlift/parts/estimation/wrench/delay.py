@@ -22,10 +22,11 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra import clip, cos, exp, sin, sqrt
+from tandemlift.core.algebra import clip, cos, exp, maximum, sin, sqrt
 from tandemlift.core.law import law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Vec3
+from tandemlift.parts.estimation.wrench.kalman import LEAST_NOISE
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, V, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import Wrench
 
@@ -91,7 +92,7 @@ def late_wrench(
 
 def rotor_delay(time: Number, mass: Number, noise: Number, interval: Number) -> tuple[RotorDelay, RotorDelayState]:
     """The delay by a known time [s] and its memory; `noise`: of the accelerometer at a sample [m/s²]."""
-    still, sigma = LowPassState(0.0, 0.0), mass * noise / PRIOR
+    still, sigma = LowPassState(0.0, 0.0), mass * maximum(noise, LEAST_NOISE) / PRIOR
     prior = sigma * sigma * BAND**3 * (0.25 * interval)  # the variance of ė by noise is σ² ω³ T/4
     k = RotorDelay(delay_of(time, interval), mass, low_pass(BAND, interval), prior, exp(-interval / MEMORY))
     return k, RotorDelayState(still, LowPassState(ZERO, ZERO), still, still, 0.0, 0.0, Wrench(0.0, ZERO))
