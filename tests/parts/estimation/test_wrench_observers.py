@@ -144,6 +144,12 @@ def test_the_wrench_on_a_tumbling_body_is_found(name, tumbling):
     assert last[3:] == pytest.approx(MOMENT_ON, abs=0.03)
 
 
+@pytest.mark.parametrize("name", ["extended-kalman", "unscented"])
+def test_either_sign_of_a_measured_quaternion_is_the_same_attitude(name, tumbling):
+    flipped = [x._replace(attitude=x.attitude * (-1.0) ** (i // 10)) for i, x in enumerate(tumbling[:40])]
+    assert (found(name, flipped) == found(name, tumbling[:40])).all()
+
+
 def test_the_gain_of_the_force_is_that_of_the_riccati_equation():
     q, sigma, T = 0.1, 0.105, 0.002
     prior = solve_discrete_are(np.eye(1), np.eye(1), [[q * q * T]], [[sigma * sigma]])[0, 0]
