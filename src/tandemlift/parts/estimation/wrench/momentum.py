@@ -4,12 +4,13 @@ With p = (m v, J ω) and N = (m g e_z, ω × J ω),
 
     ŵ = K (p − p₀ − ∫ (u − N + ŵ) dt),    so that  d ŵ/dt = K (w − ŵ).
 
-A. De Luca and R. Mattone, Actuator failure detection and isolation using generalized momenta, ICRA 2003. It is added up
-from sample to sample: ŵ grows by K times what p differs from the prediction with u − N + ŵ, so that a change of K in
-flight moves neither. K is replaced by (1 − e^{−K dt})/dt, with which the estimate of a constant wrench converges by
-e^{−K t} exactly. Velocity and rates are the navigator's, in axes in which p = B q̇ with constant B.
+A. De Luca and R. Mattone, Actuator failure detection and isolation using generalized momenta, ICRA 2003. The sum runs
+from sample to sample: ŵ grows by K times the difference of p from its prediction with u − N + ŵ. The memory is ŵ and
+that prediction, so that a change of K in flight moves neither. K is replaced by (1 − e^{−K dt})/dt, with which the
+estimate of a constant wrench converges by e^{−K t} exactly. Velocity and rates are the navigator's.
 
-In such axes the nonlinear disturbance observer with an auxiliary vector c B q̇ is the same, with K = c:
+In these axes p = B q̇ with a constant B. So the nonlinear disturbance observer of a vector c p is the same law, with
+K = c:
 
     ψ̇ = c (N − u − c p − ψ),    ŵ = ψ + c p.
 
