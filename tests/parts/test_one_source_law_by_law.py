@@ -19,10 +19,9 @@ from tandemlift.parts.estimation.wrench import (
     hybrid,
     kalman,
     momentum,
-    nonlinear_disturbance,
     wind_compensation,
 )
-from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation, observe
+from tandemlift.parts.estimation.wrench.observation import ExternalWrench, NominalBody, Observation, observe
 from tandemlift.parts.guidance import guidance
 from tandemlift.parts.interaction import policy
 from tandemlift.parts.mechanics import low_pass, parts, rotation
@@ -83,8 +82,8 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "the wrench of rotors that are later than known": (
         delay.late_wrench,
         (
-            delay.RotorDelay(delay.Delay(*[0.0] * 6), 0.0, LOW_PASS, 0.0, 0.0),
-            delay.RotorDelayState(*[delay.DelayState(x, x) for x in (0.0, V)], *[STILL] * 2, 0.0, 0.0, Wrench(0.0, V)),
+            delay.RotorDelay(LOW, 0.0, LOW_PASS, 0.0, 0.0),
+            delay.RotorDelayState(STILL, low_pass.LowPassState(V, V), STILL, STILL, 0.0, 0.0, Wrench(0.0, V)),
             Wrench(0.0, V),
             *[0.0] * 3,
         ),
@@ -125,17 +124,12 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
         policy.policy_damping,
         (policy.Policy(each(14)(*[0.0] * 14), each(6)(*[0.0] * 6), 0.0, V), low_pass.LowPassState(V, V), V, 0.0),
     ),
-    "pure delay": (delay.delayed, (delay.Delay(*[0.0] * 6), delay.DelayState(V, V), V)),
-    "momentum": (observe, (momentum.MomentumObserver(VEHICLE, V, V), momentum.MomentumState(V, V, 0.0), OBSERVED)),
-    "hybrid": (observe, (hybrid.HybridObserver(VEHICLE, V, V), hybrid.HybridState(V, V, 0.0), OBSERVED)),
-    "disturbance": (
+    "pure delay": (delay.delayed, (LOW, low_pass.LowPassState(V, V), V)),
+    "momentum": (
         observe,
-        (
-            nonlinear_disturbance.NonlinearObserver(VEHICLE, V, V, V, V),
-            nonlinear_disturbance.AuxiliaryState(V, V, 0.0),
-            OBSERVED,
-        ),
+        (momentum.MomentumObserver(VEHICLE, V, V), momentum.MomentumState(ExternalWrench(V, V), V, V, 0.0), OBSERVED),
     ),
+    "hybrid": (observe, (hybrid.HybridObserver(VEHICLE, V, V), hybrid.HybridState(V, V, V, 0.0), OBSERVED)),
     "kalman": (observe, (kalman.KalmanObserver(VEHICLE, V, V, V), kalman.KalmanState(V, V, V, 0.0), OBSERVED)),
     "extended kalman": (
         observe,

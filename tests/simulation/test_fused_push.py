@@ -49,6 +49,8 @@ FLIGHTS = {
     "one joint": {**HELD, "sensor_faults": [{**FAULT, "size": [0.0, 0.0, 0.6], "quadrotor": 1}]},
     "gust": {"pushes": [], "mission.duration": 34.0, **gusts(([3.0, -2.0, 0.0], 20.0, 0.5, 8.0))},
     "thrust": {"pushes": [], "mission.duration": 34.0, "faults": WEAK},
+    "gyroscope": {"pushes": [], "mission.duration": 14.0, "sensors.gyroscope.noise": 0.0},
+    "torques": {"pushes": [], "mission.duration": 14.0, "sensors.joints.torque_noise": 0.0},
 }
 
 
@@ -109,3 +111,11 @@ def test_the_push_on_the_body_of_mujoco_is_found_as_on_ours(wrench, joints):
         errors.append(np.sqrt(np.mean((flight["push_estimate"] - flight["push_force"])[hovers] ** 2, axis=0)))
     assert np.max(errors) < 0.1  # N
     assert errors[1] == pytest.approx(errors[0], abs=0.003)
+
+
+@pytest.mark.parametrize("noiseless", ["gyroscope", "torques"])
+def test_a_sensor_without_noise_leaves_the_moment_of_no_push_at_zero(noiseless, flights):
+    """The filter would be as fast as it likes, but samples limit it."""
+    flight = flights[noiseless]
+    assert np.abs(flight["push_moment_estimate"][flight.time > 12.5]).max() < 0.15
+    assert flight.findings == ()

@@ -22,6 +22,7 @@ from tandemlift.parts.estimation.contact_table import contact_checks
 from tandemlift.parts.estimation.disturbance_observer import observer_checks
 from tandemlift.parts.guidance import supervision_table as supervision
 from tandemlift.parts.guidance.guidance import reading_checks
+from tandemlift.parts.guidance.yaw_compliance import yaw_checks
 from tandemlift.parts.interaction.admittance import admittance_checks, gate_checks
 from tandemlift.parts.interaction.person_table import PersonTable, person_checks, person_warnings
 from tandemlift.parts.interaction.policy import policy_checks
@@ -77,6 +78,7 @@ def refusals(m: Mission) -> Iterator[CheckResult]:
     yield from excitation_time_checks(m.excitation, m.phases, step, m.mission.duration)
     yield from estimator.hover_tare_checks(m.estimator, guidance)
     yield from gate_checks(m.admittance, guidance)
+    yield from yaw_checks(m.compliance.yaw, m.hover.vehicle, guidance, step)
     yield from policy_checks(m.compliance.policy, m.admittance.mass, m.admittance.damping, guidance, step)
     yield from contact_checks(m.contact, guidance, s.model, m.pilot.push)
     yield from supervision.limit_checks(m.supervision)

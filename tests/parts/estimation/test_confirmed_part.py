@@ -6,7 +6,7 @@ import pytest
 import tandemlift as tl
 from tandemlift.core.vector import ZERO, Quat, Vec3, each, vec3
 from tandemlift.parts.estimation.navigation import NavigationState, Navigator, innovation
-from tandemlift.parts.estimation.push_confirmation import outside_load, rotor_model, withheld
+from tandemlift.parts.estimation.push_confirmation import outside_load, rotor_model, start_confirmation, withheld
 from tandemlift.parts.estimation.push_estimate import PushEstimate
 from tandemlift.parts.estimation.wrench.confirmed_part import (
     GUST_TIME,
@@ -50,6 +50,16 @@ def test_a_joint_that_is_wrong_becomes_the_new_zero_within_seconds():
     assert seen[0] == pytest.approx(1.8)
     assert zero.offset == pytest.approx(2.0, abs=0.2)
     assert learned(2.0, -2.0, RELEARN_TIME)[0].offset == pytest.approx(1.8 * (1.0 - np.exp(-1.0)), abs=0.15)
+
+
+def test_thresholds_of_zero_withhold_nothing_of_a_push_that_the_motion_confirms():
+    mission, no = tl.load_mission("iris"), (0.0, 0.0, 0.0)
+    vehicle = Vehicle.from_settings(mission.vehicle)
+    k, memory = start_confirmation(mission.estimator, vehicle, DT, threshold=no, moment_threshold=0.0, limited=True)
+    for push in (0.0, 1.0):
+        one = compared(k.low_pass, memory.force_zero, Vec3(push, 0.0, 0.0), ZERO, k.tolerance, k.ratio, 0.0, DT)
+        assert one.withheld == ZERO
+    assert compared(k.low_pass, memory.turning_zero, 0.0, 0.0, k.moment_tolerance, 0.0, 0.0, DT).withheld == 0.0
 
 
 def test_the_mean_square_grows_with_the_load_beside_a_push_of_nothing():

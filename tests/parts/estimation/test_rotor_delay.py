@@ -45,8 +45,9 @@ def test_a_thrust_that_is_wrong_by_a_factor_is_no_delay():
     assert abs(estimated(0.0, scale=0.95)[0][-1]) < 4e-4
 
 
-def test_on_the_floor_nothing_is_learned_and_the_model_stays():
-    k, memory = rotor_delay(KNOWN, MASS, NOISE, T)
+@pytest.mark.parametrize("noise", [NOISE, 0.0])
+def test_on_the_floor_nothing_is_learned_and_the_model_stays(noise):
+    k, memory = rotor_delay(KNOWN, MASS, noise, T)
     for i in range(300):
         _, memory = late_wrench(k, memory, Wrench(float(np.sin(0.05 * i)), ZERO), float(np.cos(0.05 * i)), 0.0, T)
     assert (memory.product, memory.square) == (0.0, 0.0)

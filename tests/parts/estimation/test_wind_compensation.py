@@ -88,3 +88,9 @@ def test_a_blow_on_a_guard_takes_off_no_more_than_a_wind_of_8_m_s_and_in_a_conta
     assert array(push.measured) == pytest.approx([BEAM[0] * (30.0**2 - 8.0**2), 0.0, 0.0], abs=1e-7)
     push, _ = estimate(k, memory, blown, 0.2, 0.0)
     assert array(push.measured) == pytest.approx([BEAM[0] * 30.0**2, 0.0, 0.0], abs=1e-7)
+
+
+def test_quadrotors_without_drag_along_z_show_the_wind_along_x_and_y():
+    flat = {f"vehicle.quadrotors.{i}.drag_area": [0.02, 0.02, 0.0] for i in range(2)}
+    vehicle = Vehicle.from_settings(load_mission("iris", flat).vehicle)
+    assert payload_drag_from(vehicle, 200.0, STEP) == payload_drag_from(VEHICLE, 200.0, STEP)

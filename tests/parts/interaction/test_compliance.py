@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
+from tandemlift.core.errors import InputError
 from tandemlift.core.phases import GUIDED
 from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.parts.guidance.phases import PhaseOutput
@@ -154,6 +155,21 @@ def test_beyond_the_yaw_authority_it_yields_and_brakes_with_no_more_than_that():
     assert abs(heading.rate) < 0.05
     assert np.abs(asked).max() <= 0.9 + 1e-9
     assert min(np.array(asked)[2200:]) == pytest.approx(-0.9, abs=1e-6)
+
+
+def test_a_damping_about_yaw_that_is_unstable_when_sampled_is_refused():
+    light = {"compliance.yaw.model": "compliant", "compliance.yaw.inertia": 1e-3}
+    g, m = guided(light)
+    for damping, settles in ((1.9, True), (2.1, False)):
+        heading, yaw = m.heading, 0.0
+        for _ in range(3000):
+            course, heading = yaw_step(g.heading._replace(damping=damping), heading, 0.3, yaw, STEERED, 0.0, H)
+            yaw = course.angle
+        assert (heading.rate == pytest.approx(0.15 / damping, abs=1e-3)) == settles
+    with pytest.raises(InputError, match=r"must be at most 2\*inertia/step = 2 N m s with inertia 0\.001"):
+        guided({**light, "compliance.yaw.damping": 2.1})
+    with pytest.raises(InputError, match=r"with inertia 3\.27"):
+        guided({"compliance.yaw.model": "compliant", "compliance.yaw.damping": 7000.0})
 
 
 def test_a_heading_waits_for_a_vehicle_that_cannot_turn():

@@ -113,6 +113,13 @@ def test_while_pushes_are_not_followed_the_damping_is_the_missions():
         assert eased == (0.0, 0.0, 0.0)
 
 
+def test_a_network_makes_no_force_where_there_is_no_damping_to_multiply():
+    mission = tl.load_mission("iris", {"compliance.policy.model": "network", "admittance.damping": 0.0})
+    policy = start_policy(mission.compliance.policy, mission.admittance.damping)
+    for push, v in samples(np.random.default_rng(8), 20):
+        assert policy_damping(policy, push, v, 1.0)[0] == (0.0, 0.0, 0.0)
+
+
 def test_weights_of_zero_are_the_admittance_to_the_bit():
     with_policy = tl.fly(tl.load_mission("zigzag", {**LED, "compliance.policy.weights": PolicyTable.zeros(2)}))
     without = tl.fly(tl.load_mission("zigzag", {**LED, "compliance.policy.model": "none"}))

@@ -210,6 +210,16 @@ def test_only_a_rotor_that_explains_nearly_all_of_the_residual_is_named(explaine
     assert np.array(verdict.lost).tolist() == (np.eye(8)[3] * names).tolist()
 
 
+def test_without_a_dwell_a_rotor_is_named_once_at_the_first_sample_and_stays_lost():
+    mission = load_mission("iris", {"detection.model": "residual", "detection.dwell": 0.0})
+    start = mission.detection, VEHICLE, mixer_from(VEHICLE.effect), DT, mission.initial
+    rules, verdict = start_detection(*start, hovers=True)[0].rules, SETTLED.verdict
+    evidence = EIGHT(*(10.0 * rules.threshold * np.eye(8)[3]).tolist())
+    for k in range(20):
+        verdict = decision_step(rules, verdict, evidence, 10.0 * rules.threshold, 1.0, k * DT, DT)
+        assert (list(verdict.lost), verdict.named, verdict.since) == (np.eye(8)[3].tolist(), 1.0, 0.0)
+
+
 @pytest.mark.parametrize(("fit", "size"), [(3.0, 4.0), (0.5, 2.0), (9.0, 4.0), (20.0, 21.0)])
 def test_the_fraction_that_is_taken_for_lost_has_the_most_evidence(fit, size):
     """Against a search over all fractions; without a spread it is fit/size, within its bounds."""

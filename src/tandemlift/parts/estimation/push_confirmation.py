@@ -25,7 +25,7 @@ from tandemlift.parts.estimation.push_estimate import (
     PushEstimatorState,
     relative_acceleration,
 )
-from tandemlift.parts.estimation.wrench.confirmed_part import Zero, compared
+from tandemlift.parts.estimation.wrench.confirmed_part import TINY, Zero, compared
 from tandemlift.parts.estimation.wrench.wind_compensation import subtracted_wind
 from tandemlift.parts.mechanics.loads import scaled, sum_over_set, translated
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
@@ -209,17 +209,17 @@ def start_confirmation(
         moment_threshold: moment [N·m] above which a push rotates the vehicle.
         limited: whether the allocation knows the limits of the rotors, and so their thrusts.
     """
-    x, y, z = threshold
     if e.confirmation == "none" or e.wrench != "joints":
         return Absent(), Absent()
-    side = minimum(x, y) * TOLERANCE  # body axes rotate with the heading
+    x, y, z, about_z = [maximum(bound * TOLERANCE, TINY) for bound in (*threshold, moment_threshold)]
+    side = minimum(x, y)  # body axes rotate with the heading
     heavier = vehicle.payload.mass / (vehicle.mass - vehicle.payload.mass)
     margin = MARGIN if e.wind_compensation == "none" else 0.0
     rotors, speeds = rotor_model(vehicle, step) if limited else (Absent(), Absent())
     confirmation = PushConfirmation(
         rotors=rotors,
-        tolerance=Vec3(side, side, z * TOLERANCE),
-        moment_tolerance=moment_threshold * TOLERANCE,
+        tolerance=Vec3(side, side, z),
+        moment_tolerance=about_z,
         ratio=vec3([maximum(ratio * margin, heavier) for ratio in _wind_ratios(vehicle)]),
         inertia=inertia_value(vehicle.inertia),
         low_pass=low_pass(BANDWIDTH, step),

@@ -6,9 +6,11 @@ only need to give the damping, at most U: a larger moment rotates the vehicle fa
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Literal, NamedTuple
 
 from tandemlift.core.algebra import clip, where
+from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.keys import NonNegative, Positive, Table, Tilt, key
 from tandemlift.core.law import choice
 from tandemlift.core.types import Number, number
@@ -160,3 +162,15 @@ def start_heading(
     )
     quiet = DeadBandState(active=0.0, above_time=0.0, inactive_time=0.0, mean=0.0, bias=0.0)
     return turning, YawState(NO_MOMENT, quiet, NO_MOMENT, heading, 0.0, 0.0)
+
+
+def yaw_checks(table: YawTable, vehicle: Vehicle, guidance: str, step: float) -> Iterator[CheckResult]:
+    """Check for a sampled admittance about the yaw axis that is unstable; `guidance`: `pilot.guidance`."""
+    J = float(vehicle.inertia[2, 2]) if table.inertia is None else table.inertia
+    most = 2.0 * J / step  # ψ̇ is multiplied by 1 − C h/J in a step
+    if (table.model, guidance) == ("compliant", "interactive") and table.damping > most * (1.0 + 1e-12):
+        yield refused(
+            f"compliance.yaw.damping = {table.damping:g}: must be at most 2*inertia/step = {most:.6g} N m s with "
+            f"inertia {J:g} kg m² (compliance.yaw.inertia, or the vehicle's) and step {step:g} s, or the admittance is "
+            "unstable"
+        )

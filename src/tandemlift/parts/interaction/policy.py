@@ -188,7 +188,7 @@ def policy_checks(
         return
     if guidance != "interactive":
         yield refused('compliance.policy.model = "network": must be "none" where pilot.guidance is "scheduled"')
-    most = min(2.0 * m / (step * c) for m, c in zip(mass[:2], damping[:2], strict=True) if c > 0.0)
+    most = min((2.0 * m / (step * c) for m, c in zip(mass[:2], damping[:2], strict=True) if c > 0.0), default=math.inf)
     if table.factor > most:
         yield refused(
             f"compliance.policy.factor = {table.factor:g}: must be at most {most:.4g}, or sampling is unstable"

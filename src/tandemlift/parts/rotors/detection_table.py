@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 
 import numpy as np
 
+from tandemlift.core.algebra import maximum
 from tandemlift.core.arrays import largest
 from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.keys import BELIEVED, Bandwidth, Fraction, NonNegative, PerAxis, Positive, Scale, Table, key
@@ -87,6 +88,7 @@ class DetectionTable(Table):
     rotor_delay: NonNegative = key(0.01, "s", "delay of the modelled rotors", source="actuators.delay of mission iris")
 
 
+AT_ONCE = 1e-9  # s, for a dwell of 0: a timer counts as over from the first sample that it runs, not at rest
 BOUND = 0.5  # of the residual after a rotor failure: the largest contribution of a sample to the scatter
 
 
@@ -95,7 +97,7 @@ def _rules(d: DetectionTable) -> DecisionRules:
         threshold=d.threshold,
         isolation_margin=d.isolation_margin,
         unexplained_fraction=d.unexplained_fraction,
-        dwell=d.dwell,
+        dwell=maximum(d.dwell, AT_ONCE),
         retest_time=d.retest_time,
         per_spread=1.0 / d.thrust_uncertainty**2,
     )

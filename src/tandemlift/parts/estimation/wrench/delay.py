@@ -2,10 +2,11 @@
 
 A pure delay T is a second-order Padé all-pass, exact for an input held over a step:
 
-    y = u − (12/T) ż,    z̈ + (6/T) ż + (12/T²) z = u.
+    y = u − T q̇,    (T²/12) q̈ + (T/2) q̇ + q = u.
 
 Its gain is 1 at every frequency, its phase that of the delay to (ω T)⁵/720 rad: a low-pass of the same delay would lose
-gain where the pilot's loops cross. The poles are −a ± j b with a = 3/T, b = √3/T.
+gain where the pilot's loops cross. The poles are (−3 ± j √3)/T. The memory is q and T q̇: under a constant input it is
+(u, 0) whatever T is, so that a change of T in flight moves nothing at rest.
 
 Rotors that are later than modelled by δ give f(t − δ) ≈ f − δ ḟ. So the force that the accelerometer shows beside the
 modelled thrust, e = m a_z − f, has −δ ḟ in it. Faster than a hand changes, the pilot's own noise moves the thrust all
@@ -19,13 +20,14 @@ lag is one of the delay, too. A thrust that is wrong by a factor is not: its par
 
 from __future__ import annotations
 
-from typing import Generic, NamedTuple
+from typing import NamedTuple
 
-from tandemlift.core.algebra import clip, cos, exp, sin, sqrt
+from tandemlift.core.algebra import clip, cos, exp, maximum, sin, sqrt
 from tandemlift.core.law import law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Vec3
-from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, V, flush_denormals, low_pass, low_pass_step
+from tandemlift.parts.estimation.wrench.kalman import LEAST_NOISE
+from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, V, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import Wrench
 
 BAND = 60.0  # rad/s, ω: above a hand's pushes, below the delay of the rotors
@@ -33,53 +35,24 @@ MEMORY, LARGEST = 10.0, 0.01  # s, T_δ and the largest |δ̂|
 PRIOR = 0.003  # s, standard deviation of δ before the first sample
 
 
-class Delay(NamedTuple):
-    """The transition of (z − T² u/12, ż) over one step; T²/12 [s²] and 12/T [1/s]."""
-
-    value_from_value: Number
-    value_from_rate: Number
-    rate_from_value: Number
-    rate_from_rate: Number
-    rest: Number
-    feed: Number
-
-
-class DelayState(NamedTuple, Generic[V]):
-    """Memory of a delay, of a number or a vector of unit U: z [U s²] and ż [U s]."""
-
-    value: V
-    rate: V
-
-
 @law
-def delayed(k: Delay, memory: DelayState[V], value: V) -> tuple[V, DelayState[V]]:
-    """(the delayed value at the end of a step with a constant input, the new memory)."""
-    deviation = memory.value - value * k.rest
-    after = DelayState(
-        flush_denormals(value * k.rest + deviation * k.value_from_value + memory.rate * k.value_from_rate),
-        flush_denormals(deviation * k.rate_from_value + memory.rate * k.rate_from_rate),
-    )
-    return value - after.rate * k.feed, after
+def delayed(k: LowPass, memory: LowPassState[V], value: V) -> tuple[V, LowPassState[V]]:
+    """(the delayed value at the end of a step with a constant input, the new memory of q and T q̇)."""
+    after = low_pass_step(k, memory, value)
+    return value - after.rate, after
 
 
-def delay_of(time: Number, step: Number) -> Delay:
-    """The delay by a time [s], run every `step` [s]."""
-    a, b = 3.0 / time, sqrt(3.0) / time
-    decay, c, s = exp(-a * step), cos(b * step), sin(b * step)
-    return Delay(
-        value_from_value=decay * (c + sqrt(3.0) * s),
-        value_from_rate=decay * s / b,
-        rate_from_value=-decay * s * (a * a + b * b) / b,
-        rate_from_rate=decay * (c - sqrt(3.0) * s),
-        rest=time * time / 12.0,
-        feed=12.0 / time,
-    )
+def delay_of(time: Number, step: Number) -> LowPass:
+    """The transition of (q − u, T q̇) over a step [s], by which T = `time` [s] is delayed."""
+    h, b = step / time, sqrt(3.0)
+    decay, c, s = exp(-3.0 * h), cos(b * h), sin(b * h)
+    return LowPass(decay * (c + b * s), decay * s / b, -4.0 * b * decay * s, decay * (c - b * s))
 
 
 class RotorDelay(NamedTuple):
     """The known delay; for δ, the vehicle's mass [kg], the low-pass, c [N²/s⁴], the sums' factor of a sample."""
 
-    known: Delay
+    known: LowPass
     mass: Number
     low_pass: LowPass
     prior: Number
@@ -89,8 +62,8 @@ class RotorDelay(NamedTuple):
 class RotorDelayState(NamedTuple):
     """Memory: of the known delay; e and f [N], low-passed; −Σ ė f̈ and Σ f̈² [N²/s⁴]; the last wrench so delayed."""
 
-    thrust: DelayState[Number]
-    moment: DelayState[Vec3]
+    thrust: LowPassState[Number]
+    moment: LowPassState[Vec3]
     rest: LowPassState[Number]
     smooth: LowPassState[Number]
     product: Number
@@ -119,8 +92,7 @@ def late_wrench(
 
 def rotor_delay(time: Number, mass: Number, noise: Number, interval: Number) -> tuple[RotorDelay, RotorDelayState]:
     """The delay by a known time [s] and its memory; `noise`: of the accelerometer at a sample [m/s²]."""
-    still, sigma = LowPassState(0.0, 0.0), mass * noise / PRIOR
+    still, sigma = LowPassState(0.0, 0.0), mass * maximum(noise, LEAST_NOISE) / PRIOR
     prior = sigma * sigma * BAND**3 * (0.25 * interval)  # the variance of ė by noise is σ² ω³ T/4
     k = RotorDelay(delay_of(time, interval), mass, low_pass(BAND, interval), prior, exp(-interval / MEMORY))
-    none = DelayState(0.0, 0.0), DelayState(ZERO, ZERO)
-    return k, RotorDelayState(*none, still, still, 0.0, 0.0, Wrench(0.0, ZERO))
+    return k, RotorDelayState(still, LowPassState(ZERO, ZERO), still, still, 0.0, 0.0, Wrench(0.0, ZERO))

@@ -28,11 +28,17 @@ from typing import NamedTuple
 
 from numpy.typing import ArrayLike
 
-from tandemlift.core.algebra import absolute, exp, maximum, sqrt, where
+from tandemlift.core.algebra import absolute, exp, maximum, minimum, sqrt, where
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Vec3, apply, cross, spread, total
-from tandemlift.parts.estimation.wrench.kalman import KalmanObserver, KalmanState, natural_frequency, steady_gain
+from tandemlift.parts.estimation.wrench.kalman import (
+    LEAST_NOISE,
+    KalmanObserver,
+    KalmanState,
+    natural_frequency,
+    steady_gain,
+)
 from tandemlift.parts.estimation.wrench.observation import (
     ExternalWrench,
     Observation,
@@ -192,9 +198,13 @@ def refuted_force(m: FusedState) -> Vec3:
 
 
 def turning_gains(frequency: Vec3, bandwidth: Vec3, interval: Number) -> TurningGains:
-    """The gains of a sample, from b = `frequency` and a = `bandwidth` [rad/s]; see above."""
+    """The gains of a sample, from b = `frequency` and a = `bandwidth` [rad/s]; see above.
+
+    Both are at most one over the interval: faster than b = 2.8/T, the sampled filter is unstable.
+    """
     columns = []
-    for b, a in zip(frequency, bandwidth, strict=True):
+    for pair in zip(frequency, bandwidth, strict=True):
+        b, a = [minimum(w, 1.0 / interval) for w in pair]
         s, both = sqrt(a * a + 2.0 * b * b), a * a + b * b
         step = (1.0 - exp(-s * interval)) / s
         columns.append((b * b * s * step / both, a * a * step / both, b**4 * step / both, a * a * s * step / both))
@@ -229,7 +239,8 @@ def fused_filter(
     share = by_motion / (by_joints + by_motion)
     c = spread(joints)
     arms = [total(a * a + b * b) for a, b in ((c.y, c.z), (c.x, c.z), (c.x, c.y))]
-    turned = Vec3(*[sqrt(len(joints) * torque * torque + arm * force * force) for arm in arms])
+    squares = [len(joints) * torque * torque + arm * force * force for arm in arms]
+    turned = Vec3(*[maximum(sqrt(square), LEAST_NOISE) for square in squares])
     change, turning_change = changes
     frequency = natural_frequency(turning_change, principal(alone.body.inertia) * gyroscope, interval)
     gains = turning_gains(frequency, turning_change / (turned * sqrt(interval)), interval)

@@ -16,7 +16,6 @@ from typing import NamedTuple
 
 from tandemlift.core.types import Number
 from tandemlift.core.vector import Vec3
-from tandemlift.parts.estimation.wrench.momentum import explained
 from tandemlift.parts.estimation.wrench.observation import (
     ExternalWrench,
     NominalBody,
@@ -37,9 +36,10 @@ class HybridObserver(NamedTuple):
 
 
 class HybridState(NamedTuple):
-    """Memory: the force [N, world axes], the angular momentum as modelled [kg·m²/s, body axes]; 1 once `started`."""
+    """Memory: force [N, world axes]; moment [N·m] and predicted angular momentum, body axes; 1 once `started`."""
 
     force: Vec3
+    moment: Vec3
     angular: Vec3
     started: Number
 
@@ -48,6 +48,6 @@ class HybridState(NamedTuple):
 def _observe(k: HybridObserver, m: HybridState, x: Observation) -> tuple[ExternalWrench, HybridState]:
     force = m.force + (unexplained_force(k.body, x) - m.force) * k.force
     angular = angular_momentum(k.body, x)
-    L = explained(m.angular, angular, m.started)
-    moment = (angular - L) * k.moment
-    return ExternalWrench(force, moment), HybridState(force, L + (modelled_moment(k.body, x) + moment) * x.dt, 1.0)
+    moment = m.moment + (angular - m.angular) * k.moment * m.started
+    after = HybridState(force, moment, angular + (modelled_moment(k.body, x) + moment) * x.dt, 1.0)
+    return ExternalWrench(force, moment), after

@@ -13,8 +13,7 @@ from tandemlift.parts.estimation.wrench.extended_kalman import ExtendedKalmanFil
 from tandemlift.parts.estimation.wrench.hybrid import HybridObserver, HybridState
 from tandemlift.parts.estimation.wrench.kalman import LEAST_NOISE, kalman_observer
 from tandemlift.parts.estimation.wrench.momentum import MomentumObserver, MomentumState
-from tandemlift.parts.estimation.wrench.nonlinear_disturbance import AuxiliaryState, NonlinearObserver
-from tandemlift.parts.estimation.wrench.observation import NominalBody, principal
+from tandemlift.parts.estimation.wrench.observation import ExternalWrench, NominalBody, principal
 from tandemlift.parts.estimation.wrench.unscented import start_unscented
 from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable
 
@@ -49,8 +48,8 @@ class OwnObserver(NamedTuple):
             del _standing_in[name]
 
 
-def _decay(bandwidth: Vec3, interval: Number) -> Vec3:
-    return Vec3(*[exp(-w * interval) for w in bandwidth])
+def _gain(bandwidth: Vec3, interval: Number) -> Vec3:
+    return Vec3(*[1.0 - exp(-w * interval) for w in bandwidth])
 
 
 def start_wrench_observer(
@@ -59,17 +58,15 @@ def start_wrench_observer(
     """(the observer, its memory); `name`: `estimator.wrench`; `interval`: between samples [s]."""
     if name in _standing_in:
         return _standing_in[name](body, noise, interval)
-    decay = _decay(vec3(table.force_bandwidth), interval)
-    turning_decay = _decay(vec3(table.moment_bandwidth), interval)
-    one = Vec3(1.0, 1.0, 1.0)
-    force, moment = one - decay, (one - turning_decay) / interval
+    force = _gain(vec3(table.force_bandwidth), interval)
+    moment = _gain(vec3(table.moment_bandwidth), interval) / interval
     changes = vec3(table.force_change), vec3(table.moment_change)
-    if name == "momentum":
-        return MomentumObserver(body, force / interval, moment), MomentumState(ZERO, ZERO, 0.0)
+    if name in ("momentum", "disturbance-observer"):  # one law in these axes
+        return MomentumObserver(body, force / interval, moment), MomentumState(
+            ExternalWrench(ZERO, ZERO), ZERO, ZERO, 0.0
+        )
     if name == "hybrid":
-        return HybridObserver(body, force, moment), HybridState(ZERO, ZERO, 0.0)
-    if name == "disturbance-observer":
-        return NonlinearObserver(body, force / interval, moment, decay, turning_decay), AuxiliaryState(ZERO, ZERO, 0.0)
+        return HybridObserver(body, force, moment), HybridState(ZERO, ZERO, ZERO, 0.0)
     if name in ("kalman", "fused"):
         return kalman_observer(body, *changes, noise.accelerometer, noise.gyroscope, interval)
     by_mass, by_inertia = changes[0] / body.mass, changes[1] / principal(body.inertia)

@@ -21,7 +21,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra import maximum, sqrt
+from tandemlift.core.algebra import maximum, sqrt, where
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import GRAVITY, Number, NumberSet
 from tandemlift.core.vector import Quat, Vec3, dot, each, hamilton, total
@@ -185,7 +185,8 @@ def _observe(f: UnscentedFilter, memory: UnscentedState, x: Observation) -> tupl
     velocity = m.velocity + by_position.rate
     by_velocity, T = by_rate(T, x.velocity - velocity, k.velocity, x.fresh)
     velocity, acceleration = velocity + by_velocity.rate, m.acceleration + by_position.load + by_velocity.load
-    seen = parameters(hamilton(conjugate(m.attitude), x.attitude))
+    off = hamilton(conjugate(m.attitude), x.attitude)
+    seen = parameters(off * where(off.w < 0.0, -1.0, 1.0))  # q and −q are one attitude
     one, P = measured(memory.covariance, 0, seen, k.attitude, x.fresh)
     two, P = measured(P, 3, x.state.rates - (m.rates + one.rates), k.rates, 1.0)
     attitude = hamilton(m.attitude, quaternion(one.turn + two.turn))

@@ -93,7 +93,7 @@ def payload_drag_from(vehicle: Vehicle, bandwidth: float, step: float) -> Payloa
     """The windage of the nominal vehicle, with a low-pass of a bandwidth [rad/s]."""
     beam = array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
     quadrotors = np.sum([array(q.areas) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)
-    x, y, _ = beam / quadrotors
+    x, y = beam[:2] / quadrotors[:2]
     largest = vec3(0.5 * DENSITY * FASTEST**2 * beam)
     return PayloadDrag(number(x), number(y), largest, low_pass(bandwidth, step))
 
