@@ -208,7 +208,7 @@ def grade(folder: Path, exercises: Path, seconds: float, out: str | None) -> Non
     from tandemlift.apps.live.grading import graded_class, notebooks_in
 
     path = file_path("--out", out, ".csv") if out else None
-    notebooks, others = notebooks_in(folder)
+    notebooks, others = notebooks_in(folder, exercises)
     with progress_bar("Grading", "notebooks", shown=sys.stderr.isatty()) as progress:
         grades = graded_class(notebooks, exercises, seconds, progress)
     table = table_of(grades)
