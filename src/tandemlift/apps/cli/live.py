@@ -140,11 +140,11 @@ def page(
     if not out and not html:
         raise InputError("give the place of the page: --html FILE for one file, --out DIR for a web server")
     one_file = file_path("--html", html, *HTML) if html else None
-    if out and Path(out).is_file():
-        raise InputError(f"--out {out}: is a file, not a folder")
     from tandemlift.apps.live import page_modules, pages
     from tandemlift.apps.live.page_files import page_files, with_script
 
+    if out:
+        pages.check_site(Path(out))
     files = with_script(page_files(), script)
     with progress_bar("Compiling", "missions") as progress:
         flights = page_modules.packed_flights(missions or page_modules.MISSIONS, controller, progress)
