@@ -160,6 +160,17 @@ def test_a_second_run_replaces_our_files_and_no_other(run, tmp_path):
     assert {path.name for path in (folder / "figures").iterdir()} == {"mine.png", "path.svg"}
 
 
+def test_results_do_not_replace_the_mission_file_that_was_given_but_that_of_an_earlier_run(run, tmp_path):
+    own, whole = tmp_path / "mission.toml", run("missions", "hover")[1]  # with comments
+    for text in ('extends = "hover"\n', whole):
+        own.write_text(text, "utf-8")
+        message = check_refused(run("run", "mission.toml", *SHORT, "--out", "."))
+        assert "--out .: the results would replace mission.toml" in message
+        assert (own.read_text("utf-8"), [*tmp_path.iterdir()]) == (text, [own])
+    assert run("run", "hover", *SHORT)[0] == 0
+    assert run("run", "out/hover/mission.toml", *SHORT, "--set", "admittance.mass=3")[0] == 0
+
+
 @pytest.mark.parametrize(
     ("out", "pieces"),
     [

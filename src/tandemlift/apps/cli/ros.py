@@ -144,7 +144,7 @@ def gazebo(
 
     loaded = flying.load(mission, flying.with_after_crash(settings, after_crash))
     root()  # raises if there is no Gazebo, before anything is compiled
-    with results_folder(out, Path("out/gazebo") / loaded.mission.name, flying.FILES) as folder:
+    with results_folder(out, Path("out/gazebo") / loaded.mission.name, flying.FILES, mission) as folder:
         began = time.perf_counter()
         window = has_display() and not no_window
         if not (window or no_window):

@@ -82,7 +82,7 @@ def run(
     if engine is not None:
         engine_named(engine)
     loaded, own, name = _selected(mission, study, row, flying.with_after_crash(settings, after_crash), chosen)
-    with results_folder(out, Path("out") / name, flying.FILES) as folder:
+    with results_folder(out, Path("out") / name, flying.FILES, mission) as folder:
         flight = _fly(loaded, engine or own, chosen)
         write_results(flight, folder, began, loaded.person.recording, figures=not no_figures)
     flying.exit_if_amiss({flight.name: flight}, strict=strict)

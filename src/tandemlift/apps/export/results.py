@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import FLIGHT_FILE
+from tandemlift.core.files import FLIGHT_FILE, toml_tables
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight
@@ -66,22 +66,24 @@ def load_flight(given: str) -> tuple[Flight, Path]:
 
 
 @contextmanager
-def results_folder(out: str | None, default: Path, files: Sequence[str]) -> Iterator[Path]:
+def results_folder(out: str | None, default: Path, files: Sequence[str], mission: str | None = None) -> Iterator[Path]:
     """Make the folder for the results before the flight, and remove it again if the flight fails.
 
     Args:
         out: the folder that the user named; None for the default.
         default: the folder if none is named.
         files: names of the files that will be written.
+        mission: the mission that the user named.
 
     Raises:
-        InputError: the folder cannot be made or written to.
+        InputError: the folder cannot be made or written to, or the mission's file would be replaced.
     """
     folder = default if out is None else Path(out)
     made: list[Path] = []
     try:
         _make(folder, made)
         _check_writable(folder, files)
+        _check_kept(folder / "mission.toml", mission)
         yield folder
     except BaseException:
         for path in reversed(made):
@@ -112,3 +114,18 @@ def _check_writable(folder: Path, files: Sequence[str]) -> None:
         in_the_way.append(figures)
     if in_the_way:
         raise InputError(f"--out {folder}: {in_the_way[0]} is in the way of a file or folder of that name")
+
+
+def _check_kept(written: Path, mission: str | None) -> None:
+    """Check that the file of a mission is not replaced by its results, unless it is the one that an earlier run wrote.
+
+    That one has every key, neither comments nor `extends`, and the form of all such files.
+    """
+    if mission is None or not (written.exists() and Path(mission).exists() and written.samefile(mission)):
+        return
+    from tandemlift.missions import format_toml
+
+    text = written.read_text("utf-8")
+    tables = toml_tables(text)
+    if "extends" in tables or text != format_toml(tables):
+        raise InputError(f"--out {written.parent}: the results would replace {mission}: give another folder")
