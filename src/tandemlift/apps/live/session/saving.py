@@ -26,14 +26,17 @@ CHUNK = 1000  # rows that are written at once, in less than a millisecond
 
 
 def save_in_process(snapshot: FlightSnapshot, folder: Path) -> None:
-    """Write mission, hand and flight into a folder; returns when all is written.
+    """Write mission, hand and flight into a new folder; returns when all is written.
 
     Raises:
-        InputError: the folder cannot be written.
+        InputError: the folder is there already, or cannot be written.
         RuntimeError: the process failed.
     """
     try:
+        folder.mkdir(parents=True)
         _save_in_process(snapshot, folder)
+    except FileExistsError:  # made, not looked for: another page may save at the same time
+        raise InputError(f"{folder}: the name is taken: choose another") from None
     except OSError as error:
         raise InputError(f"{folder}: cannot be written: {error.strerror or error}") from error
 
