@@ -108,6 +108,8 @@ def test_a_flight_in_real_time_logs_and_its_keys_can_be_set(client, tmp_path):
             assert device.parameters["wind.velocity_1"].take(struct.pack("<f", 0.5))
             until(lambda: flight.session.flight.now.wind.velocity[0] == 0.5)
             assert not device.parameters["wind.velocity_1"].take(struct.pack("<f", 99.0))
+            flight.session.apply(read("set"))  # by a page
+            assert device.parameters["wind.velocity_2"].data == struct.pack("<f", 0.25)
             quads.arm(0)
             for message in ("rewind", "save"):
                 with pytest.raises(tl.InputError, match="not while clients fly"):
@@ -122,5 +124,6 @@ def read(kind):
     """A message of a page."""
     from tandemlift.apps.live.session.page_messages import read_message
 
-    more = {"rewind": ', "time": 0.0', "save": ', "name": "mine"'}.get(kind, "")
+    wind = ', "key": "wind.velocity", "value": [0.5, 0.25, 0]'
+    more = {"rewind": ', "time": 0.0', "save": ', "name": "mine"', "set": wind}.get(kind, "")
     return read_message(f'{{"type": "{kind}", "seq": 1{more}}}')

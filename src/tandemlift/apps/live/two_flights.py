@@ -51,7 +51,7 @@ class TwoFlights(Session):
             return []
         if ghost is None or not isinstance(message, (page.ResetMessage, page.RewindMessage, page.FlyMessage)):
             return super().apply(message)
-        with self._parameters.turn:
+        with self.turn:
             if isinstance(message, page.RewindMessage):
                 self.pacer.paused = True
                 steps = min(round(message.time / ghost.dt) + 1, self._flight.step)
@@ -69,7 +69,7 @@ class TwoFlights(Session):
 
     def _compare(self, message: page.CompareMessage) -> None:
         check_repeatable(self._engine, "compare")
-        with self._parameters.turn:
+        with self.turn:
             if message.what == "keep":
                 past = self._flight
                 again = self._flown_again(past, past.step)

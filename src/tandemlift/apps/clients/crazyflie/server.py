@@ -166,4 +166,8 @@ def channels_of(flight: RealTimeFlight) -> dict[str, Channel]:
 def parameters_of(flight: RealTimeFlight) -> dict[str, CrtpParameter]:
     """The numbers of a mission that can be changed in flight and whose names fit into a table."""
     numbers = mission_numbers(flight)
-    return {f"{g}.{name}": CrtpParameter("f", one.value, one.changed) for g, name, one in numbers if fits(g, name)}
+    return {
+        f"{g}.{name}": CrtpParameter("f", one.read(), one.take, read=one.read)
+        for g, name, one in numbers
+        if fits(g, name)
+    }

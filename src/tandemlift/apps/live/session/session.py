@@ -51,6 +51,7 @@ class Session:
         is_ready: whether the flight is compiled; until then the vehicle is shown at its start.
         watchers: called after every step, in the flight's thread.
         pacer: the pace of the flight.
+        turn: lock of who changes the flight.
 
     Raises:
         InputError: the mission cannot be flown interactively, or cannot be built.
@@ -64,6 +65,7 @@ class Session:
         self._lock, self.pacer = threading.RLock(), Pacer(mission.mission.step)
         self._thread = RealTimeThread(self.pacer, self._lock, self._is_prepared, self._fly)
         self._parameters = ParameterControl(tables_of(self._mission), self._lock)
+        self.turn = self._parameters.turn
         self._failed, self._findings = False, FlightFindings()
         self.generation, self.watchers = 1, list[Callable[[RecordedFlight], None]]()
         self._flight: RecordedFlight
@@ -231,7 +233,7 @@ class Session:
 
     @_handle.register
     def _reset(self, m: page.ResetMessage) -> None:
-        with self._parameters.turn:
+        with self.turn:
             setup = self._setup(with_whole_rotors(self._flight.now, self._mission))
             self._begin(setup, FrameBuilder(setup.plan))
             self.generation += 1
@@ -239,7 +241,7 @@ class Session:
     @_handle.register
     def _rewind(self, m: page.RewindMessage) -> None:
         check_repeatable(self._engine)
-        with self._parameters.turn:
+        with self.turn:
             past, self.pacer.paused = self._flight, True
             again = self._flown_again(past, round(m.time / past.dt) + 1)
             hands_off(again)
@@ -256,7 +258,7 @@ class Session:
 
     @_handle.register
     def _fly_another(self, m: page.FlyMessage) -> list[server.Answer]:
-        with self._parameters.turn:
+        with self.turn:
             mission = other_mission(m)
             setup = self._setup(mission)
             self._begin(setup, FrameBuilder(setup.plan), mission)
