@@ -13,7 +13,7 @@ import click
 from tandemlift.apps.cli.completion import FLIGHTS, MISSIONS
 from tandemlift.apps.cli.console import echo, exit_now, progress_bar
 from tandemlift.apps.cli.flying import FAILED, HTML, controller_option, engine_option, load, set_option
-from tandemlift.apps.export.results import file_path, flight_file
+from tandemlift.apps.export.results import check_folder, file_path, flight_file
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import DATA, write_file
 
@@ -73,7 +73,7 @@ def live(
     from tandemlift.engines.registry import engine_named
 
     engine_named(engine)
-
+    check_folder("--out", out)
     files = with_script(page_files(), script)
     session = TwoFlights(load(mission, settings, controller), engine, Path(out))
     serve_until_interrupt(PageServer(files, session, host, port), f"{mission}, live", echo, browser=not no_browser)

@@ -15,7 +15,7 @@ from tandemlift.apps.cli.completion import MISSIONS
 from tandemlift.apps.cli.console import echo, exit_now, progress_bar
 from tandemlift.apps.cli.live import DEFAULT, OUT, no_browser_option, port_option
 from tandemlift.apps.cli.run import write_results
-from tandemlift.apps.export.results import results_folder
+from tandemlift.apps.export.results import check_folder, results_folder
 from tandemlift.core.errors import InputError, extra
 
 ROS_ARGUMENTS = "--ros-args"
@@ -84,6 +84,7 @@ def ros(
         return
     mission, arguments = split_words(words, DEFAULT)
     engine_named(engine)
+    check_folder("--save", save)
     loaded = flying.load(mission, settings)
     steps_between_samples(rate, loaded.mission.step)
     arguments += click.get_current_context().meta[ROS_ARGUMENTS]

@@ -81,33 +81,48 @@ def results_folder(out: str | None, default: Path, files: Sequence[str], mission
     folder = default if out is None else Path(out)
     made: list[Path] = []
     try:
-        _make(folder, made)
-        _check_writable(folder, files)
+        _make("--out", folder, made)
+        _check_free(folder, files)
         _check_kept(folder / "mission.toml", mission)
         yield folder
     except BaseException:
-        for path in reversed(made):
-            with suppress(OSError):
-                path.rmdir()
+        _remove(made)
         raise
 
 
-def _make(folder: Path, made: list[Path]) -> None:
-    """Make a folder and its parents; `made` receives those that are new."""
+def check_folder(option: str, given: str | None) -> None:
+    """Refuse by an `InputError`, before a flight, a folder for its end that cannot be made or written to."""
+    made: list[Path] = []
+    try:
+        if given:
+            _make(option, Path(given), made)
+    finally:
+        _remove(made)
+
+
+def _remove(made: Sequence[Path]) -> None:
+    """Remove folders that were made, as far as they are empty."""
+    for path in reversed(made):
+        with suppress(OSError):
+            path.rmdir()
+
+
+def _make(option: str, folder: Path, made: list[Path]) -> None:
+    """Make a folder that can be written to, and its parents; `made` receives those that are new."""
     try:
         for path in reversed((folder, *folder.parents)):
             if not path.is_dir():
                 path.mkdir()
                 made.append(path)
     except (FileExistsError, NotADirectoryError):
-        raise InputError(f"--out {folder}: {path} is a file, not a folder") from None
+        raise InputError(f"{option} {folder}: {path} is a file, not a folder") from None
     except (OSError, ValueError) as error:
-        raise InputError(f"--out {folder}: cannot be made: {getattr(error, 'strerror', error)}") from None
-
-
-def _check_writable(folder: Path, files: Sequence[str]) -> None:
+        raise InputError(f"{option} {folder}: cannot be made: {getattr(error, 'strerror', error)}") from None
     if not os.access(folder, os.W_OK | os.X_OK):
-        raise InputError(f"--out {folder}: the folder cannot be written to")
+        raise InputError(f"{option} {folder}: the folder cannot be written to")
+
+
+def _check_free(folder: Path, files: Sequence[str]) -> None:
     figures = folder / FIGURES
     in_the_way = [path for path in (folder / name for name in files) if path.is_dir()]
     if figures.exists() and not figures.is_dir():
