@@ -75,6 +75,7 @@ def test_the_help_of_run_names_what_is_written_and_the_exit_codes(run):
         (("xyz",), ["No such command 'xyz'; there are run, "]),
         (("run", "paper", "--ste", "a=1"), ["No such option", "--set"]),
         (("run", "paper", "--no-figure"), ["No such option", "--no-figures"]),
+        (("run", "paper", "--style", "slides", "--no-figures"), ["--style slides: leave out --no-figures"]),
         (("run",), ["Missing argument 'MISSION'"]),
         (("run", "paper", "hover"), ["unexpected extra argument"]),
         (("run", "paper", "--set"), ["requires an argument"]),
