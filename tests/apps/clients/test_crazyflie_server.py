@@ -79,13 +79,16 @@ def test_ten_thousand_datagrams_of_any_content_leave_it_answering(served, client
 def test_a_port_in_use_is_refused_with_what_to_do(client):
     taken = client()
     taken.bind((HOST, 0))
-    port = taken.getsockname()[1]
-    server = CrazyflieServer(quadrotors_of(tl.load_mission("crazyflie-stick")), port=port)
-    with (
-        pytest.raises(tl.InputError, match=rf"--udp-port {port}: Crazyflie 1 cannot listen .* give another port"),
-        server,
-    ):
-        pass
+    quads = quadrotors_of(tl.load_mission("crazyflie-stick"))
+    for port, which in (taken.getsockname()[1], 1), (65535, 2):  # the second one's would be 65536
+        server = CrazyflieServer(quads, port=port)
+        with (
+            pytest.raises(
+                tl.InputError, match=rf"--udp-port {port}: Crazyflie {which} cannot listen .* give another port"
+            ),
+            server,
+        ):
+            pass
 
 
 def test_a_flight_in_real_time_logs_and_its_keys_can_be_set(client, tmp_path):
