@@ -163,7 +163,7 @@ def test_a_second_run_replaces_our_files_and_no_other(run, tmp_path):
 
 def test_results_do_not_replace_the_mission_file_that_was_given_but_that_of_an_earlier_run(run, tmp_path):
     own, whole = tmp_path / "mission.toml", run("missions", "hover")[1]  # with comments
-    for text in ('extends = "hover"\n', whole):
+    for text in ('extends = "hover"\n', f"\ufeff{whole}"):
         own.write_text(text, "utf-8")
         message = check_refused(run("run", "mission.toml", *SHORT, "--out", "."))
         assert "--out .: the results would replace mission.toml" in message

@@ -140,7 +140,7 @@ def _check_kept(written: Path, mission: str | None) -> None:
         return
     from tandemlift.missions import format_toml
 
-    text = written.read_text("utf-8")
+    text = written.read_text("utf-8-sig")
     tables = toml_tables(text)
     if "extends" in tables or text != format_toml(tables):
         raise InputError(f"--out {written.parent}: the results would replace {mission}: give another folder")
