@@ -15,7 +15,7 @@ from tandemlift.apps.cli.console import echo, exit_now, progress_bar
 from tandemlift.apps.cli.flying import FAILED, HTML, controller_option, engine_option, load, set_option
 from tandemlift.apps.export.results import check_folder, file_path, flight_file
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import DATA, write_file
+from tandemlift.core.files import DATA, check_own, write_file
 
 HOST, PORT = "127.0.0.1", 8710
 DEFAULT, OUT = "zigzag", Path("out/live")
@@ -143,8 +143,9 @@ def page(
     from tandemlift.apps.live import page_modules, pages
     from tandemlift.apps.live.page_files import page_files, with_script
 
+    check_folder("--out", out)
     if out:
-        pages.check_site(Path(out))
+        check_own(Path(out) / "index.html", pages.MARK)
     files = with_script(page_files(), script)
     with progress_bar("Compiling", "missions") as progress:
         flights = page_modules.packed_flights(missions or page_modules.MISSIONS, controller, progress)

@@ -11,11 +11,11 @@ from tandemlift.apps.live.page_files import data_element, in_one_file, page_text
 from tandemlift.apps.live.page_modules import ENDING, FORMAT, PackedFlight
 from tandemlift.apps.live.replay import replay_element
 from tandemlift.codegen.mission_module import kept
-from tandemlift.core.errors import InputError
-from tandemlift.core.files import __version__, check_own, write_file
+from tandemlift.core.files import __version__, write_file
 from tandemlift.missions import load_mission
 
 FOLDER = "flights"  # beside the page's other files
+MARK = 'id="flights"'  # in an index.html of ours
 SHOWN_INSTEAD = "one-push"  # mission of the flight that a browser without WebAssembly plays
 EVERY = 6  # frames of that flight, of which one is kept
 ONLY_SERVER = (
@@ -53,17 +53,6 @@ def offline_html(flights: Sequence[PackedFlight], files: Mapping[str, bytes]) ->
     entries = [{**_entry(flight), "data": base64.b64encode(flight.data).decode()} for flight in flights]
     html = with_data(_with_flights(page_text(files, "/index.html"), entries), text_element("worker", worker))
     return in_one_file(html, files, IN_ONE_FILE)
-
-
-def check_site(folder: Path) -> None:
-    """Check that a page can be written into a folder as files for a web server.
-
-    Raises:
-        InputError: it is a file, or has an index.html of somebody else.
-    """
-    if folder.is_file():
-        raise InputError(f"--out {folder}: is a file, not a folder")
-    check_own(folder / "index.html", 'id="flights"')
 
 
 def write_page(
