@@ -172,9 +172,12 @@ def _contents(plan: StudyPlan) -> dict[str, Any]:
 
 
 def _make(path: Path, contents: dict[str, Any]) -> None:
+    text = format_toml(contents["settings"])
     try:
+        if (path / STUDY).exists() and (path / STUDY).read_text("utf-8", "replace") != text:
+            raise InputError(f"--out {path}: would replace {path / STUDY}: choose another --out, or move it")
         (path / CHUNKS).mkdir(parents=True, exist_ok=True)
-        write_file(path / STUDY, format_toml(contents["settings"]))
+        write_file(path / STUDY, text)
         write_file(path / PLAN, json.dumps(contents) + "\n")  # last: with it, the folder is a study's
     except OSError as error:
         raise InputError(f"--out {path}: cannot be made or written to: {error.strerror or error}") from None
