@@ -10,7 +10,8 @@ import pytest
 from c_flights import STRICT, same, unfused
 
 import tandemlift as tl
-from tandemlift.codegen.c_package import code_texts, write_c, written
+from tandemlift.codegen.c_package import MARK, code_texts, write_c, written
+from tandemlift.core.files import check_own
 from tandemlift.core.types import leaves
 from tandemlift.simulation.pilot_api import INPUT, pilot_at_start
 from tools import need
@@ -79,6 +80,8 @@ def test_its_thrusts_have_the_bits_of_the_native_pilot(name, tmp_path):
 def test_the_self_tests_pass_and_fail_when_a_bit_is_other(tmp_path):
     need("gcc")
     files = write_c(tl.load_mission("one-push"), tmp_path)
+    for name in ("CMakeLists.txt", "README.md"):
+        check_own(tmp_path / name, MARK)  # it may be written again
     for part in ("pilot", "flight"):
         source = next(f for f in files if f.name.endswith(f"_{part}_selftest.c"))
         assert subprocess.run([build(source)], check=False, capture_output=True).stdout.startswith(b"ok")
@@ -87,6 +90,14 @@ def test_the_self_tests_pass_and_fail_when_a_bit_is_other(tmp_path):
         digit = [place.end() - 1 for place in re.finditer(r"\d\.\d{3,}", data)][-1]
         source.write_text(text[:digit] + str((int(text[digit]) + 5) % 10) + text[digit + 1 :])
         assert subprocess.run([build(source, "-O0")], check=False, capture_output=True).returncode == 1
+
+
+@pytest.mark.parametrize("name", ["CMakeLists.txt", "README.md"])
+def test_files_of_another_project_are_not_replaced(name, tmp_path):
+    (tmp_path / name).write_text("# mine", "utf-8")
+    with pytest.raises(tl.InputError, match=f"{name}: tandemlift did not write it, so it stays: give"):
+        write_c(tl.load_mission("hover"), tmp_path)
+    assert [path.read_text("utf-8") for path in tmp_path.iterdir()] == ["# mine"]
 
 
 def test_its_header_refuses_arithmetic_that_is_not_exact(tmp_path):

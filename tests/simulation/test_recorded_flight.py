@@ -153,9 +153,13 @@ def test_saved_aside_it_is_the_same_flight(snapshot, tmp_path):
     save_in_process(snapshot, tmp_path / "aside")
     assert sorted(p.name for p in (tmp_path / "aside").iterdir()) == sorted([MISSION, HAND, FLIGHT])
     assert_flies_again(tmp_path / "aside")
+    before = {file: file.read_bytes() for file in (tmp_path / "aside").iterdir()}
+    with pytest.raises(tl.InputError, match="aside: the name is taken: choose another"):
+        save_in_process(snapshot, tmp_path / "aside")
+    assert {file: file.read_bytes() for file in (tmp_path / "aside").iterdir()} == before
 
 
-def test_a_flight_that_cannot_be_saved_aside_is_told_of(snapshot, tmp_path):
-    (tmp_path / FLIGHT).mkdir()
+def test_a_flight_that_cannot_be_saved_aside_is_told_of(snapshot, tmp_path, monkeypatch):
+    monkeypatch.setattr("sys.executable", "false")
     with pytest.raises(RuntimeError, match="could not be saved"):
-        save_in_process(snapshot, tmp_path)
+        save_in_process(snapshot, tmp_path / "aside")

@@ -16,7 +16,7 @@ from tandemlift.codegen.c_flight import FlightFile
 from tandemlift.codegen.c_pilot import PilotFile
 from tandemlift.codegen.number_facts import facts_of
 from tandemlift.codegen.prepare import PrepareFile
-from tandemlift.core.files import write_file
+from tandemlift.core.files import check_own, write_file
 from tandemlift.core.types import Array, leaves
 from tandemlift.missions import Mission, tables_of
 from tandemlift.simulation.caller_values import portable_mission
@@ -31,6 +31,7 @@ ROWS = 12  # stored samples of a flight
 MEASURED = ("position", "velocity", "attitude", "rates", "push_force")
 TOLERANCE = 1e-3  # of the range of thrusts, in single precision
 NAN = 0x7FF8000000000000  # the value of every NaN in the sum over a log
+GENERAL, MARK = ("CMakeLists.txt", "README.md"), "written by tandemlift"  # names that another project may have, too
 
 
 def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[Path]:
@@ -47,8 +48,11 @@ def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[
         The files.
 
     Raises:
-        InputError: the mission's controller is plain Python, or the mission changes while it is flown.
+        InputError: the mission's controller is plain Python, the mission changes while it is flown, or the folder has
+            a CMakeLists.txt or README.md of somebody else.
     """
+    for name in GENERAL:
+        check_own(Path(folder) / name, MARK)
     mission = portable_mission(mission)
     file = source_file(mission, single)
     selftests = {

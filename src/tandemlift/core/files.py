@@ -51,6 +51,12 @@ def write_file(path: Path, content: str | bytes) -> None:
         partial.write_bytes(content.encode() if isinstance(content, str) else content)
 
 
+def check_own(path: Path, mark: str) -> None:
+    """Refuse by an `InputError` to replace a file without the mark that those of tandemlift have in their text."""
+    if path.exists() and mark not in path.read_text("utf-8", "replace"):
+        raise InputError(f"{path}: tandemlift did not write it, so it stays: give another folder, or move it")
+
+
 def unpacked_size(archive: zipfile.ZipFile) -> int:
     """Unpacked size of all files of an archive [bytes], by its directory; no more than that is ever read."""
     return sum(file.file_size for file in archive.infolist())

@@ -75,6 +75,7 @@ def test_the_help_of_run_names_what_is_written_and_the_exit_codes(run):
         (("xyz",), ["No such command 'xyz'; there are run, "]),
         (("run", "paper", "--ste", "a=1"), ["No such option", "--set"]),
         (("run", "paper", "--no-figure"), ["No such option", "--no-figures"]),
+        (("run", "paper", "--style", "slides", "--no-figures"), ["--style slides: leave out --no-figures"]),
         (("run",), ["Missing argument 'MISSION'"]),
         (("run", "paper", "hover"), ["unexpected extra argument"]),
         (("run", "paper", "--set"), ["requires an argument"]),
@@ -158,6 +159,17 @@ def test_a_second_run_replaces_our_files_and_no_other(run, tmp_path):
     assert json.loads((folder / "metrics.json").read_text())["steps"] == 500
     assert {path.name for path in folder.iterdir()} == OURS | {"notes.txt"}
     assert {path.name for path in (folder / "figures").iterdir()} == {"mine.png", "path.svg"}
+
+
+def test_results_do_not_replace_the_mission_file_that_was_given_but_that_of_an_earlier_run(run, tmp_path):
+    own, whole = tmp_path / "mission.toml", run("missions", "hover")[1]  # with comments
+    for text in ('extends = "hover"\n', f"\ufeff{whole}"):
+        own.write_text(text, "utf-8")
+        message = check_refused(run("run", "mission.toml", *SHORT, "--out", "."))
+        assert "--out .: the results would replace mission.toml" in message
+        assert (own.read_text("utf-8"), [*tmp_path.iterdir()]) == (text, [own])
+    assert run("run", "hover", *SHORT)[0] == 0
+    assert run("run", "out/hover/mission.toml", *SHORT, "--set", "admittance.mass=3")[0] == 0
 
 
 @pytest.mark.parametrize(

@@ -129,7 +129,12 @@ def test_a_file_is_overwritten_only_by_force(new, tmp_path):
 
 
 def test_a_file_of_any_name_is_a_mission(new, tmp_path):
-    assert new("my (böse) beam.toml")[0] == 0
+    code, told, _ = new("my (böse) beam.toml")
+    assert (code, told.splitlines()[-1]) == (
+        0,
+        "written: my (böse) beam.toml; next: tandemlift check 'my (böse) beam.toml', "
+        "tandemlift run 'my (böse) beam.toml'",
+    )
     assert tl.load_mission(str(tmp_path / "my (böse) beam.toml")).mission.name == "my-b-se-beam"
 
 

@@ -1,7 +1,11 @@
-"""`tandemlift study`: what is printed of rows that cannot be flown."""
+"""`tandemlift study`: what is printed of rows that cannot be flown, and what is refused before any is."""
 
+import sys
+
+import pytest
 from click.testing import CliRunner
 
+import tandemlift as tl
 from tandemlift.apps.cli.main import cli
 
 WITH_A_FILE = '''
@@ -49,3 +53,28 @@ def test_a_controller_all_of_whose_rows_are_refused_is_named_with_the_reason_and
     assert "row 0 is refused" in done.output
     assert "weights.txt" in done.output
     assert (tmp_path / "out" / "weights" / "report.html").is_file()
+
+
+@pytest.mark.parametrize("dry", [(), ("--dry-run",)])
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        (("--for", "human_wrok_j"), r"unknown metric of --for 'human_wrok_j'.*Did you mean 'human_work_j'"),
+        (
+            ("--for", "position_rmse_m.0", "--set", "keep.metrics=['human_work_j']"),
+            "unknown metric .*'position_rmse_m'",
+        ),
+        (("--for", "human_work_j", "--no-report"), "--for human_work_j: leave out --no-report"),
+        (("--part", "9/3"), "part = '9/3': must be K/N"),
+        ((), "a study needs pyarrow: pip install"),
+    ],
+)
+def test_what_cannot_be_reported_is_refused_before_any_row_is_flown(words, why, dry, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("tandemlift.analysis.studies.estimate.fly_chunk", lambda *_: pytest.fail("flown"))
+    (tmp_path / "one.toml").write_text('[study]\nname = "one"\nmissions = ["hover"]\n', "utf-8")
+    if not words:
+        monkeypatch.setitem(sys.modules, "pyarrow", None)
+    with pytest.raises(tl.InputError, match=why):
+        CliRunner().invoke(cli, ["study", "one.toml", *words, *dry], catch_exceptions=False)
+    assert [path.name for path in tmp_path.iterdir()] == ["one.toml"]

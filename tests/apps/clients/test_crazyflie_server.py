@@ -79,13 +79,16 @@ def test_ten_thousand_datagrams_of_any_content_leave_it_answering(served, client
 def test_a_port_in_use_is_refused_with_what_to_do(client):
     taken = client()
     taken.bind((HOST, 0))
-    port = taken.getsockname()[1]
-    server = CrazyflieServer(quadrotors_of(tl.load_mission("crazyflie-stick")), port=port)
-    with (
-        pytest.raises(tl.InputError, match=rf"--udp-port {port}: Crazyflie 1 cannot listen .* give another port"),
-        server,
-    ):
-        pass
+    quads = quadrotors_of(tl.load_mission("crazyflie-stick"))
+    for port, which in (taken.getsockname()[1], 1), (65535, 2):  # the second one's would be 65536
+        server = CrazyflieServer(quads, port=port)
+        with (
+            pytest.raises(
+                tl.InputError, match=rf"--udp-port {port}: Crazyflie {which} cannot listen .* give another port"
+            ),
+            server,
+        ):
+            pass
 
 
 def test_a_flight_in_real_time_logs_and_its_keys_can_be_set(client, tmp_path):
@@ -108,6 +111,8 @@ def test_a_flight_in_real_time_logs_and_its_keys_can_be_set(client, tmp_path):
             assert device.parameters["wind.velocity_1"].take(struct.pack("<f", 0.5))
             until(lambda: flight.session.flight.now.wind.velocity[0] == 0.5)
             assert not device.parameters["wind.velocity_1"].take(struct.pack("<f", 99.0))
+            flight.session.apply(read("set"))  # by a page
+            assert device.parameters["wind.velocity_2"].data == struct.pack("<f", 0.25)
             quads.arm(0)
             for message in ("rewind", "save"):
                 with pytest.raises(tl.InputError, match="not while clients fly"):
@@ -122,5 +127,6 @@ def read(kind):
     """A message of a page."""
     from tandemlift.apps.live.session.page_messages import read_message
 
-    more = {"rewind": ', "time": 0.0', "save": ', "name": "mine"'}.get(kind, "")
+    wind = ', "key": "wind.velocity", "value": [0.5, 0.25, 0]'
+    more = {"rewind": ', "time": 0.0', "save": ', "name": "mine"', "set": wind}.get(kind, "")
     return read_message(f'{{"type": "{kind}", "seq": 1{more}}}')

@@ -5,6 +5,7 @@ import random
 import re
 import socket
 import struct
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -15,7 +16,6 @@ from tandemlift.apps.clients.flight import SteppedFlight, quadrotors_of
 from tandemlift.apps.clients.mavlink.modes import HOLD, LAND, OFFBOARD, TAKEOFF
 from tandemlift.apps.clients.mavlink.parameters import name_of
 from tandemlift.apps.clients.mavlink.vehicles import MavlinkVehicles
-from tandemlift.apps.clients.mission_numbers import MissionNumber
 from tandemlift.apps.live.session.parameters import tunables_of, value_of
 from tandemlift.missions import tables_of
 from tandemlift.missions.changes import MISSING
@@ -84,12 +84,26 @@ class Client:
         return [m.text for m in self.got if m.get_type() == "STATUSTEXT"]
 
 
+@dataclass
+class Number:
+    """A number of a mission, in no flight."""
+
+    value: float
+
+    def read(self):
+        return self.value
+
+    def take(self, value):
+        self.value = value if value < 8.0 else self.value
+        return value < 8.0
+
+
 class World:
     """Two X500 and their clients."""
 
     def __init__(self):
         self.port = free_ports()
-        self.keys = {f"wind.velocity_{n}": MissionNumber(float(n), lambda value: value < 8.0) for n in (1, 2, 3)}
+        self.keys = {f"wind.velocity_{n}": Number(float(n)) for n in (1, 2, 3)}
         changes = {"pushes": [], "phases.land_start": 3000.0, "mission.duration": 3600.0}
         mission = tl.load_mission("two-x500", changes)
         self.quadrotors = quadrotors_of(mission)

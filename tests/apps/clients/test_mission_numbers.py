@@ -7,7 +7,9 @@ from types import SimpleNamespace
 import pytest
 from patience import joined, until
 
+import tandemlift as tl
 from tandemlift.apps.clients.mission_numbers import mission_numbers
+from tandemlift.missions import changed
 
 
 @pytest.fixture
@@ -17,25 +19,33 @@ def flight():
 
     def apply(message):
         go.wait()
+        set_to(message.value)
         made.append((message.key, message.value))
+
+    def set_to(wind):
+        session.flight.now = changed(session.flight.now, "wind.velocity", list(wind))
 
     shown = {"key": "wind.velocity", "value": (1.0, 2.0, 3.0), "min": -8.0, "max": 8.0}
     named = {"key": "controller.name", "value": "nftsmc"}
-    session = SimpleNamespace(scene={"parameters": [shown, named]}, apply=apply)
-    yield SimpleNamespace(session=session, go=go, made=made)
+    began = SimpleNamespace(now=tl.load_mission("two-x500", {"wind.velocity": [1.0, 2.0, 3.0]}))
+    session = SimpleNamespace(scene={"parameters": [shown, named]}, apply=apply, flight=began, turn=threading.RLock())
+    yield SimpleNamespace(session=session, go=go, made=made, set_to=set_to)
     go.set()
     joined(*(thread for thread in threading.enumerate() if thread not in before))
 
 
 def test_each_component_of_a_list_is_a_number_within_its_bounds(flight):
     numbers = {f"{table}.{name}": one for table, name, one in mission_numbers(flight)}
-    assert {name: one.value for name, one in numbers.items()} == {f"wind.velocity_{n}": float(n) for n in (1, 2, 3)}
+    assert {name: one.read() for name, one in numbers.items()} == {f"wind.velocity_{n}": float(n) for n in (1, 2, 3)}
     y = numbers["wind.velocity_2"]
     assert not any(y.take(bad) for bad in (8.1, -9.0, math.nan, math.inf))
-    assert y.value == 2.0
-    flight.go.set()
+    assert y.read() == 2.0
+    flight.set_to([5.0, 6.0, 7.0])  # by a page
+    assert [one.read() for one in numbers.values()] == [5.0, 6.0, 7.0]
     assert y.take(-4.0)
-    until(lambda: flight.made == [("wind.velocity", (1.0, -4.0, 3.0))], "the change")
+    assert y.read() == -4.0  # the answer of a client, although the flight does not have it yet
+    flight.go.set()
+    until(lambda: flight.made == [("wind.velocity", (5.0, -4.0, 7.0))], "the change")
 
 
 def test_a_flood_of_changes_is_refused_until_some_are_made(flight):

@@ -266,7 +266,7 @@ columns = ["wrench.torque.x", "wrench.torque.y", "wrench.torque.z"]
 
 def test_a_map_names_other_topics_and_a_missing_one_is_named(tmp_path):
     folder = mcap_of(tmp_path / "flight", OTHERS)
-    (tmp_path / "map.toml").write_text(MAP)
+    (tmp_path / "map.toml").write_text(MAP, "utf-8-sig")  # as editors of Windows do
     holds_the_motion(tl.read_log(folder, tmp_path / "map.toml"))
     with pytest.raises(
         tl.InputError, match=r"no samples for .* in /tandemlift/.*; it has /ft_left, /ft_right, /mavros"

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tandemlift.apps.live.grading import Notebook, checks_of, grade, graded_class, notebooks_in
+from tandemlift.apps.live.grading import Notebook, checks_of, grade, notebooks_in
 from tandemlift.core.errors import InputError
 
 EXERCISES = Path(__file__).parents[3] / "exercises"
@@ -184,6 +184,9 @@ def test_a_class_is_graded_and_what_misbehaves_is_named(tmp_path):
     handed_in(tmp_path, "ida", first, "raise SystemExit")
     handed_in(tmp_path, "jo", first, "import checks\nchecks.check_flight = lambda points=10: None")
     (tmp_path / "kim.ipynb").write_text("{}", "utf-8")
+    handed_in(tmp_path / "leo", "leo", os.path.relpath(tmp_path / "leo", EXERCISES), "pass")
+    (tmp_path / "leo" / "checks.py").write_text("raise SystemExit('ran in the process that grades')", "utf-8")
+    handed_in(tmp_path, "mia", "9-unknown", "pass")
     code, said = graded(tmp_path, "--seconds", "600")
     assert code == 3
     assert re.findall(r"^(\w+) +(\d+) +\d+$", said, re.M) == [
@@ -198,7 +201,9 @@ def test_a_class_is_graded_and_what_misbehaves_is_named(tmp_path):
         "gus, 1-admittance: cell 1 reads another notebook (anna.ipynb)",
         "hal, 1-admittance: cell 1 starts another program",
         "ida, 1-admittance: cell 1, SystemExit",
-        "kim.ipynb: is no notebook of an exercise, and was skipped",
+        "kim.ipynb: is a notebook of no exercise, and was skipped",
+        "leo/leo.ipynb: is a notebook of exercise '../",
+        f"mia.ipynb: is a notebook of exercise '9-unknown', which is not in {EXERCISES}, and was skipped",
     ):
         assert line in said, said
 
@@ -236,9 +241,8 @@ def test_the_command_prints_and_writes_a_table(tmp_path):
 
 def test_folders_without_notebooks_or_exercises_are_refused(tmp_path):
     with pytest.raises(InputError, match="there is no such folder"):
-        notebooks_in(tmp_path / "none")
+        notebooks_in(tmp_path / "none", EXERCISES)
     with pytest.raises(InputError, match=r"must hold notebooks \(.ipynb\)"):
-        notebooks_in(tmp_path)
-    one = handed_in(tmp_path, "anna", "9-unknown", "pass")
-    with pytest.raises(InputError, match=r"9-unknown: must be the folder of an exercise, with a checks.py"):
-        graded_class([one], EXERCISES)
+        notebooks_in(tmp_path, EXERCISES)
+    with pytest.raises(InputError, match=r"must hold a folder for each exercise, with a checks.py; has none"):
+        notebooks_in(tmp_path, tmp_path)

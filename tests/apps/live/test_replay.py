@@ -280,6 +280,7 @@ def test_replay_writes_a_page_of_a_saved_flight_or_its_folder(flight, run, tmp_p
         (("replay", "flight.npz", "--html", "page.txt"), "--html page.txt: must end in .html"),
         (("live", "nowhere"), "unknown mission 'nowhere'"),
         (("live", "--engine", "steam"), "unknown engine 'steam'"),
+        (("live", "--out", "flight.npz"), "--out flight.npz: flight.npz is a file, not a folder"),
     ],
 )
 def test_bad_input_is_refused_in_words(flight, run, tmp_path, arguments, words):

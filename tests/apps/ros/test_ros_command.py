@@ -50,6 +50,7 @@ TABLES = "".join(
         (["hover", "--rate", "2000"], "--rate 2000: must be from 0.1 to 1000 Hz"),
         (["hover", "--engine", "compild"], "unknown engine 'compild'"),
         (["hover", "--set", "admittance.mass"], "must be KEY=VALUE"),
+        (["hover", "--save", __file__], f"--save {__file__}: {__file__} is a file, not a folder"),
     ],
 )
 def test_bad_input_is_refused_before_anything_is_compiled(arguments, words):

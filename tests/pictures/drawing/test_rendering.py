@@ -192,6 +192,11 @@ def test_the_command_draws_saved_flights_and_missions(flight, tmp_path, monkeypa
         "out/hover/picture.png",
         "results/picture.png",
     ]
+    for option in (("--set", "mission.duration=1"), ("--engine", "mujoco")):
+        with pytest.raises(
+            tl.InputError, match=r"^--set, --engine: results.flight\.npz is a saved flight, which cannot"
+        ):
+            run("results", *option)
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """The report: one file that needs nothing else, says what the metrics say, and trusts no text."""
 
 import dataclasses
+import errno
 import html
 import math
 import re
@@ -141,6 +142,19 @@ def test_a_run_removes_the_figures_that_its_flight_does_not_have(paper, tmp_path
         (tmp_path / "figures" / name).write_text("old")
     write_flight_files(paper, tmp_path, figures=False)
     assert [path.name for path in (tmp_path / "figures").iterdir()] == ["mine.png"]
+
+
+def test_on_a_full_disk_the_files_of_an_earlier_flight_stay_together(paper, tmp_path, monkeypatch):
+    def full(*_):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    write_flight_files(paper, tmp_path, figures=False)
+    before = {path: path.read_bytes() for path in tmp_path.iterdir()}
+    monkeypatch.setattr(Flight, "save", full)
+    other = dataclasses.replace(paper, mission=paper.mission | {"mission": {"name": "other"}})
+    with pytest.raises(tl.InputError, match=f"{tmp_path}: the flight cannot be written: No space left on device"):
+        write_flight_files(other, tmp_path, figures=False)
+    assert {path: path.read_bytes() for path in tmp_path.iterdir()} == before
 
 
 def test_every_metric_is_in_the_table_with_its_value_and_unit(page, paper):

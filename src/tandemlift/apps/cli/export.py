@@ -7,18 +7,16 @@ animation, drawn without a display.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from tandemlift.apps.cli.completion import FLIGHTS_AND_MISSIONS, MISSIONS, names
 from tandemlift.apps.cli.console import echo, progress_bar
 from tandemlift.apps.cli.flying import controller_option, engine_option, load, set_option
+from tandemlift.apps.cli.run import fly_mission
 from tandemlift.apps.export.results import flight_file
 from tandemlift.core.errors import InputError
-
-if TYPE_CHECKING:
-    from tandemlift.flight.record import Flight
 
 CAMERAS = "follow, overview, front, side, top, or AZIMUTH,ELEVATION[,DISTANCE] in degrees and metres"
 
@@ -138,21 +136,13 @@ def render(
     from tandemlift.pictures.drawing import film
 
     folder, saved = flight_file(flight_or_mission)
+    if saved and (settings or engine != "compiled"):
+        raise InputError(f"--set, --engine: {saved} is a saved flight, which cannot be changed: give a mission")
     path = Path(out) if out else folder / "picture.png"
     size, view = film.size_of(at.pop("size")), film.camera_of(camera)
     film.check_options(path, [f"--{name}" for name, value in at.items() if value is not None])
     shot = film.Shot(at["time"], at["from"], at["to"], at["fps"] or 20.0, at["speed"], size, view)
-    flight = Flight.load(saved) if saved else _fly(flight_or_mission, settings, engine)
+    flight = Flight.load(saved) if saved else fly_mission(load(flight_or_mission, settings), engine)
     with progress_bar("Drawing", "pictures", shown=path.suffix.lower() != ".png") as progress:
         film.render(flight, path, shot, progress)
     echo(f"{flight.name}: {path}")
-
-
-def _fly(mission: str, settings: tuple[str, ...], engine: str) -> Flight:
-    from tandemlift.engines.registry import engine_named
-    from tandemlift.simulation.fly import fly
-
-    engine_named(engine)
-    loaded = load(mission, settings)
-    with progress_bar("Flying", "steps") as progress:
-        return fly(loaded, engine, progress=progress)

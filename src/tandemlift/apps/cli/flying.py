@@ -13,6 +13,7 @@ import click
 from tandemlift.apps.cli.completion import CONTROLLERS, names, settings
 from tandemlift.apps.cli.console import echo, progress_bar
 from tandemlift.apps.export.results import FIGURES
+from tandemlift.core.errors import InputError
 from tandemlift.core.files import FLIGHT_FILE, parse_setting
 from tandemlift.pictures.drawing.figure import STYLES, figure_style
 
@@ -44,7 +45,7 @@ set_option = click.option(
     shell_complete=settings,
     help="Set one key of the mission: a dotted key, and a TOML value or a word. Can be repeated.",
 )
-figures_option = click.option("--no-figures", is_flag=True, help="Draw no figures.")
+figures_option = click.option("--no-figures", is_flag=True, is_eager=True, help="Draw no figures.")
 after_crash_option = click.option(
     "--after-crash",
     type=click.FloatRange(min=0.0),
@@ -65,6 +66,8 @@ def controller_option(use: str = "Controller to fly") -> Callable[[Any], Any]:
 
 def _draw_in(context: click.Context, option: click.Parameter, style: str | None) -> str | None:
     """Draw all figures of the command in a style, if one is given."""
+    if style and context.params.get("no_figures"):
+        raise InputError(f"--style {style}: leave out --no-figures, or there is no figure of that style")
     context.with_resource(figure_style(style))
     return style
 

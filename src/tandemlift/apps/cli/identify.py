@@ -59,7 +59,7 @@ def shadow(
     began, loaded = time.perf_counter(), flying.load(mission, settings)
     taken = tl.read_log(log, **reading)
     echo(*taken.notes)
-    with results_folder(out, Path("out") / f"{loaded.mission.name}-shadow", flying.FILES) as folder:
+    with results_folder(out, Path("out") / f"{loaded.mission.name}-shadow", flying.FILES, mission) as folder:
         with progress_bar("Shadowing", "steps", shown=sys.stderr.isatty()) as progress:
             flight = tl.shadow(taken, loaded, progress=progress)
         write_results(flight, folder, began, None, figures=not no_figures)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 import sys
 from collections.abc import Mapping
 
@@ -84,7 +85,8 @@ def new(
     with atomic_write(path) as partial_file:
         partial_file.write_text(new_mission(path.stem, beam), "utf-8")
         load_mission(partial_file.absolute())
-    echo(f"written: {file}; next: tandemlift check {file}, tandemlift run {file}")
+    name = shlex.quote(file)
+    echo(f"written: {file}; next: tandemlift check {name}, tandemlift run {name}")
 
 
 @click.command()

@@ -13,9 +13,9 @@ import click
 from tandemlift.apps.cli.completion import FLIGHTS, MISSIONS
 from tandemlift.apps.cli.console import echo, exit_now, progress_bar
 from tandemlift.apps.cli.flying import FAILED, HTML, controller_option, engine_option, load, set_option
-from tandemlift.apps.export.results import file_path, flight_file
+from tandemlift.apps.export.results import check_folder, file_path, flight_file
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import DATA, write_file
+from tandemlift.core.files import DATA, check_own, write_file
 
 HOST, PORT = "127.0.0.1", 8710
 DEFAULT, OUT = "zigzag", Path("out/live")
@@ -73,7 +73,7 @@ def live(
     from tandemlift.engines.registry import engine_named
 
     engine_named(engine)
-
+    check_folder("--out", out)
     files = with_script(page_files(), script)
     session = TwoFlights(load(mission, settings, controller), engine, Path(out))
     serve_until_interrupt(PageServer(files, session, host, port), f"{mission}, live", echo, browser=not no_browser)
@@ -140,11 +140,12 @@ def page(
     if not out and not html:
         raise InputError("give the place of the page: --html FILE for one file, --out DIR for a web server")
     one_file = file_path("--html", html, *HTML) if html else None
-    if out and Path(out).is_file():
-        raise InputError(f"--out {out}: is a file, not a folder")
     from tandemlift.apps.live import page_modules, pages
     from tandemlift.apps.live.page_files import page_files, with_script
 
+    check_folder("--out", out)
+    if out:
+        check_own(Path(out) / "index.html", pages.MARK)
     files = with_script(page_files(), script)
     with progress_bar("Compiling", "missions") as progress:
         flights = page_modules.packed_flights(missions or page_modules.MISSIONS, controller, progress)
@@ -208,7 +209,7 @@ def grade(folder: Path, exercises: Path, seconds: float, out: str | None) -> Non
     from tandemlift.apps.live.grading import graded_class, notebooks_in
 
     path = file_path("--out", out, ".csv") if out else None
-    notebooks, others = notebooks_in(folder)
+    notebooks, others = notebooks_in(folder, exercises)
     with progress_bar("Grading", "notebooks", shown=sys.stderr.isatty()) as progress:
         grades = graded_class(notebooks, exercises, seconds, progress)
     table = table_of(grades)

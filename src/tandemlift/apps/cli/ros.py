@@ -15,7 +15,7 @@ from tandemlift.apps.cli.completion import MISSIONS
 from tandemlift.apps.cli.console import echo, exit_now, progress_bar
 from tandemlift.apps.cli.live import DEFAULT, OUT, no_browser_option, port_option
 from tandemlift.apps.cli.run import write_results
-from tandemlift.apps.export.results import results_folder
+from tandemlift.apps.export.results import check_folder, results_folder
 from tandemlift.core.errors import InputError, extra
 
 ROS_ARGUMENTS = "--ros-args"
@@ -84,6 +84,7 @@ def ros(
         return
     mission, arguments = split_words(words, DEFAULT)
     engine_named(engine)
+    check_folder("--save", save)
     loaded = flying.load(mission, settings)
     steps_between_samples(rate, loaded.mission.step)
     arguments += click.get_current_context().meta[ROS_ARGUMENTS]
@@ -144,7 +145,7 @@ def gazebo(
 
     loaded = flying.load(mission, flying.with_after_crash(settings, after_crash))
     root()  # raises if there is no Gazebo, before anything is compiled
-    with results_folder(out, Path("out/gazebo") / loaded.mission.name, flying.FILES) as folder:
+    with results_folder(out, Path("out/gazebo") / loaded.mission.name, flying.FILES, mission) as folder:
         began = time.perf_counter()
         window = has_display() and not no_window
         if not (window or no_window):

@@ -82,8 +82,8 @@ def run(
     if engine is not None:
         engine_named(engine)
     loaded, own, name = _selected(mission, study, row, flying.with_after_crash(settings, after_crash), chosen)
-    with results_folder(out, Path("out") / name, flying.FILES) as folder:
-        flight = _fly(loaded, engine or own, chosen)
+    with results_folder(out, Path("out") / name, flying.FILES, mission) as folder:
+        flight = fly_mission(loaded, engine or own, chosen)
         write_results(flight, folder, began, loaded.person.recording, figures=not no_figures)
     flying.exit_if_amiss({flight.name: flight}, strict=strict)
 
@@ -112,7 +112,8 @@ def _selected(
     return mission_of_row(Path(study), row, dict(map(flying.parse_setting, settings)))
 
 
-def _fly(mission: Mission, engine: str | None, controller: Controller | None) -> Flight:
+def fly_mission(mission: Mission, engine: str | None, controller: Controller | None = None) -> Flight:
+    """Fly a mission, with a progress bar; the error of a user's own controller names its line."""
     from tandemlift.parts.controllers import error_text, file_of
     from tandemlift.simulation.fly import fly
     from tandemlift.simulation.plan import FlightPlan

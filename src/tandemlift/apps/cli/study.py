@@ -20,7 +20,7 @@ from tandemlift.core.files import parse_setting, write_file
 if TYPE_CHECKING:
     from tandemlift.analysis.studies.comparison import MissionComparison
     from tandemlift.analysis.studies.design.plan import StudyPlan
-    from tandemlift.analysis.studies.execution.store import StudyFolder
+    from tandemlift.analysis.studies.execution.running import StudyPart
 
 
 @click.command()
@@ -83,9 +83,14 @@ def study(
         return
     if file is None:
         raise click.UsageError("Missing argument 'FILE': a study file; `tandemlift study --template` prints one.")
+    if metrics and no_report:
+        raise InputError(f"--for {metrics[0]}: leave out --no-report, or there is no report to show it")
     from tandemlift.analysis.studies.design.study_files import load_plan
+    from tandemlift.analysis.studies.execution.running import part_from
+    from tandemlift.analysis.studies.execution.store import check_names
 
-    plan = load_plan(file, dict(map(parse_setting, settings)))
+    chosen, plan = part_from(part), load_plan(file, dict(map(parse_setting, settings)))
+    check_names(plan, metrics)
     rows = f"{plan.count:,} rows = {plan.sizes}" if plan.count > 1 else plan.sizes
     echo(f"{plan.settings.study.name}: {rows}")
     if dry_run:
@@ -95,32 +100,27 @@ def study(
             expected = estimate(plan)
         echo(*(f"  {line}" for line in expected.lines(threads or os.cpu_count() or 1)))
         return
-    folder = _fly(plan, out, part, threads)
-    _print_outcomes(folder.path, metrics, report=not no_report)
+    _fly(plan, out, chosen, threads, metrics, report=not no_report)
 
 
-def _fly(plan: StudyPlan, out: str | None, part: str, threads: int | None) -> StudyFolder:
-    from tandemlift.analysis.studies.execution.running import fly_study, part_from
+def _fly(
+    plan: StudyPlan, out: str | None, part: StudyPart, threads: int | None, metrics: tuple[str, ...], *, report: bool
+) -> None:
+    """Fly a part; print the outcomes and the place of the table; write the report of a whole study."""
+    from tandemlift.analysis.studies.execution.running import fly_study
     from tandemlift.analysis.studies.execution.store import open_folder
+    from tandemlift.analysis.studies.table import load_study, outcome_lines
 
-    chosen = part_from(part)
     folder = open_folder(plan, Path("out") / plan.settings.study.name if out is None else Path(out))
     with progress_bar(plan.settings.study.name, "rows") as progress:
-        say = partial(click.echo, err=True)
-        fly_study(plan, folder, threads=threads, part=chosen, progress=progress, say=say)
-    return folder
-
-
-def _print_outcomes(folder: Path, metrics: tuple[str, ...], *, report: bool) -> None:
-    """Print the outcomes of the flights and the place of the table; write the report of a whole study."""
-    from tandemlift.analysis.studies.table import load_study, outcome_lines
-    from tandemlift.pictures.report.study.study_report import write_study_report
-
-    study = load_study(folder)
+        fly_study(plan, folder, threads=threads, part=part, progress=progress, say=partial(click.echo, err=True))
+    study = load_study(folder.path)
     echo(*(f"  {line}" for line in outcome_lines(study)))
     if report and not study.missing:
-        echo(f"  report: {write_study_report(study, folder / 'report.html', metrics)}")
-    echo(f"  table: tl.load_study({str(folder)!r})")
+        from tandemlift.pictures.report.study.study_report import write_study_report
+
+        echo(f"  report: {write_study_report(study, folder.path / 'report.html', metrics)}")
+    echo(f"  table: tl.load_study({str(folder.path)!r})")
 
 
 SCORES = ("scores.json", "scores.csv")

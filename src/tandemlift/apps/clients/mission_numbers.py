@@ -4,29 +4,61 @@ from __future__ import annotations
 
 import math
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass
 
 from tandemlift import InputError
 from tandemlift.apps.clients.flight import RealTimeFlight
 from tandemlift.apps.live.session.page_messages import SetMessage
+from tandemlift.apps.live.session.parameters import value_of
 from tandemlift.apps.live.session.server_messages import SceneParameter
 
+PENDING = threading.BoundedSemaphore(8)  # changes at a time; a client that sends more is refused until some are made
 
-@dataclass
+
 class MissionNumber:
-    """A number of a mission: its value, and what is called with a new one, which may refuse it."""
+    """Number `n` of a parameter, `shown` as pages have it, with its `first` numbers; others change it in flight."""
 
-    value: float
-    changed: Callable[[float], bool]
+    def __init__(self, flight: RealTimeFlight, shown: SceneParameter, first: list[float], n: int) -> None:
+        self._flight, self._shown, self._first, self._n = flight, shown, first, n
+        self._asked: float | None = None  # which the flight is to have soon
 
-    def take(self, value: float) -> bool:
-        """Change it; whether it may have the value."""
-        if not math.isfinite(value) or not self.changed(value):
+    def read(self) -> float:
+        """The number now, or the one that a client asked for while that change is made."""
+        asked = self._asked
+        return self._numbers()[self._n] if asked is None else asked
+
+    def take(self, number: float) -> bool:
+        """Change it in flight, in a thread, as that may compile.
+
+        It returns False for a number that is out of bounds, or if too many changes wait.
+        """
+        low, high = self._shown.get("min", number), self._shown.get("max", number)
+        if not (math.isfinite(number) and low <= number <= high and PENDING.acquire(blocking=False)):
             return False
-        self.value = value
+        self._asked = number
+        threading.Thread(target=self._change, args=(number,), daemon=True).start()
         return True
+
+    def _numbers(self) -> list[float]:
+        """All numbers of the parameter as they are now; the first ones under another controller, which has none."""
+        value = value_of(self._flight.session.flight.now.model_dump(mode="json"), self._shown["key"])
+        if isinstance(value, int | float):
+            return [value]
+        return list(value if isinstance(value, list) else self._first)
+
+    def _change(self, number: float) -> None:
+        session = self._flight.session
+        try:
+            with session.turn, suppress(InputError):  # it has no effect in this mission, or the flight is over
+                numbers = self._numbers()
+                numbers[self._n] = number
+                value = tuple(numbers) if len(numbers) > 1 else number
+                session.apply(SetMessage(seq=0, key=self._shown["key"], value=value))
+        finally:
+            PENDING.release()
+            if self._asked == number:
+                self._asked = None
 
 
 def mission_numbers(flight: RealTimeFlight) -> Iterator[tuple[str, str, MissionNumber]]:
@@ -37,36 +69,6 @@ def mission_numbers(flight: RealTimeFlight) -> Iterator[tuple[str, str, MissionN
         if isinstance(value, str):
             continue
         numbers = list(value) if isinstance(value, list | tuple) else [value]
-        for n, number in enumerate(numbers):
+        for n in range(len(numbers)):
             name = rest.replace(".", "_") + (f"_{n + 1}" if len(numbers) > 1 else "")
-            yield table, name, MissionNumber(number, _changer(flight, shown, numbers, n))
-
-
-PENDING = threading.BoundedSemaphore(8)  # changes at a time; a client that sends more is refused until some are made
-
-
-def _changer(flight: RealTimeFlight, shown: SceneParameter, numbers: list[float], n: int) -> Callable[[float], bool]:
-    """A function that changes the number `n` of a parameter in flight, in a thread, as that may compile.
-
-    It returns False for a number that is out of bounds, or if too many changes wait.
-    """
-
-    def change(number: float) -> bool:
-        if not shown.get("min", number) <= number <= shown.get("max", number):
-            return False
-        if not PENDING.acquire(blocking=False):
-            return False
-        numbers[n] = number
-        value = tuple(numbers) if len(numbers) > 1 else number
-
-        def apply() -> None:
-            try:
-                with suppress(InputError):  # it has no effect in this mission, or the flight is over
-                    flight.session.apply(SetMessage(seq=0, key=shown["key"], value=value))
-            finally:
-                PENDING.release()
-
-        threading.Thread(target=apply, daemon=True).start()
-        return True
-
-    return change
+            yield table, name, MissionNumber(flight, shown, numbers, n)

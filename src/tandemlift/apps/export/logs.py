@@ -114,7 +114,7 @@ def _read(path: Path, columns: Map | str | os.PathLike[str] | None) -> Log:
 
 def _map_in(path: Path) -> Map:
     try:
-        return toml_tables(path.read_text("utf-8"))
+        return toml_tables(path.read_text("utf-8-sig"))
     except (ValueError, RecursionError) as error:
         raise InputError(f"{path}: {error}") from None
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import FLIGHT_FILE
+from tandemlift.core.files import FLIGHT_FILE, toml_tables
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight
@@ -66,49 +66,81 @@ def load_flight(given: str) -> tuple[Flight, Path]:
 
 
 @contextmanager
-def results_folder(out: str | None, default: Path, files: Sequence[str]) -> Iterator[Path]:
+def results_folder(out: str | None, default: Path, files: Sequence[str], mission: str | None = None) -> Iterator[Path]:
     """Make the folder for the results before the flight, and remove it again if the flight fails.
 
     Args:
         out: the folder that the user named; None for the default.
         default: the folder if none is named.
         files: names of the files that will be written.
+        mission: the mission that the user named.
 
     Raises:
-        InputError: the folder cannot be made or written to.
+        InputError: the folder cannot be made or written to, or the mission's file would be replaced.
     """
     folder = default if out is None else Path(out)
     made: list[Path] = []
     try:
-        _make(folder, made)
-        _check_writable(folder, files)
+        _make("--out", folder, made)
+        _check_free(folder, files)
+        _check_kept(folder / "mission.toml", mission)
         yield folder
     except BaseException:
-        for path in reversed(made):
-            with suppress(OSError):
-                path.rmdir()
+        _remove(made)
         raise
 
 
-def _make(folder: Path, made: list[Path]) -> None:
-    """Make a folder and its parents; `made` receives those that are new."""
+def check_folder(option: str, given: str | None) -> None:
+    """Refuse by an `InputError`, before a flight, a folder for its end that cannot be made or written to."""
+    made: list[Path] = []
+    try:
+        if given:
+            _make(option, Path(given), made)
+    finally:
+        _remove(made)
+
+
+def _remove(made: Sequence[Path]) -> None:
+    """Remove folders that were made, as far as they are empty."""
+    for path in reversed(made):
+        with suppress(OSError):
+            path.rmdir()
+
+
+def _make(option: str, folder: Path, made: list[Path]) -> None:
+    """Make a folder that can be written to, and its parents; `made` receives those that are new."""
     try:
         for path in reversed((folder, *folder.parents)):
             if not path.is_dir():
                 path.mkdir()
                 made.append(path)
     except (FileExistsError, NotADirectoryError):
-        raise InputError(f"--out {folder}: {path} is a file, not a folder") from None
+        raise InputError(f"{option} {folder}: {path} is a file, not a folder") from None
     except (OSError, ValueError) as error:
-        raise InputError(f"--out {folder}: cannot be made: {getattr(error, 'strerror', error)}") from None
-
-
-def _check_writable(folder: Path, files: Sequence[str]) -> None:
+        raise InputError(f"{option} {folder}: cannot be made: {getattr(error, 'strerror', error)}") from None
     if not os.access(folder, os.W_OK | os.X_OK):
-        raise InputError(f"--out {folder}: the folder cannot be written to")
+        raise InputError(f"{option} {folder}: the folder cannot be written to")
+
+
+def _check_free(folder: Path, files: Sequence[str]) -> None:
     figures = folder / FIGURES
     in_the_way = [path for path in (folder / name for name in files) if path.is_dir()]
     if figures.exists() and not figures.is_dir():
         in_the_way.append(figures)
     if in_the_way:
         raise InputError(f"--out {folder}: {in_the_way[0]} is in the way of a file or folder of that name")
+
+
+def _check_kept(written: Path, mission: str | None) -> None:
+    """Check that the file of a mission is not replaced by its results, unless it is the one that an earlier run wrote.
+
+    That one has every key, neither comments nor `extends`, and the form of all such files.
+    """
+    if mission is None or not (written.exists() and Path(mission).exists() and written.samefile(mission)):
+        return
+    from tandemlift.missions import format_toml
+
+    text = written.read_text("utf-8-sig")
+    tables = toml_tables(text)
+    if "extends" in tables or text != format_toml(tables):
+        raise InputError(f"--out {written.parent}: the results would replace {mission}: give another folder")

@@ -102,13 +102,7 @@ def _place(error: BaseException) -> str:
 
 
 def checks_of(folder: Path) -> SimpleNamespace:
-    """The checks of the exercise in a folder.
-
-    Raises:
-        InputError: there are none.
-    """
-    if not (folder / CHECKS).is_file():
-        raise InputError(f"{folder}: must be the folder of an exercise, with a {CHECKS}")
+    """The checks of the exercise in a folder. They run in this process: the folder must be one's own."""
     return SimpleNamespace(**runpy.run_path(str(folder / CHECKS), run_name="checks"))
 
 
@@ -120,12 +114,15 @@ class Notebook(NamedTuple):
     path: Path
 
 
-def notebooks_in(folder: Path) -> tuple[list[Notebook], list[str]]:
+def notebooks_in(folder: Path, exercises: Path) -> tuple[list[Notebook], list[str]]:
     """The notebooks that a class handed in, by name and exercise; and a line for each that is none of an exercise.
 
     Raises:
-        InputError: there is no such folder, or no notebook in it.
+        InputError: there is no such folder, or no notebook in it, or none of `exercises` has checks.
     """
+    names = {checks.parent.name for checks in exercises.glob(f"*/{CHECKS}")}
+    if not names:
+        raise InputError(f"--exercises {exercises}: must hold a folder for each exercise, with a {CHECKS}; has none")
     if not folder.is_dir():
         raise InputError(f"{folder}: {'is a file, not a folder' if folder.exists() else 'there is no such folder'}")
     paths = [p for p in sorted(folder.rglob("*.ipynb")) if not any(part.startswith(".") for part in p.parts[1:])]
@@ -135,10 +132,14 @@ def notebooks_in(folder: Path) -> tuple[list[Notebook], list[str]]:
     for path in paths:
         name = path.relative_to(folder).parts[0].removesuffix(".ipynb")
         try:
-            exercise = json.loads(path.read_text("utf-8"))["metadata"]["tandemlift"]["exercise"]
-            found.append(Notebook(name, str(exercise), path))
+            exercise = str(json.loads(path.read_text("utf-8"))["metadata"]["tandemlift"]["exercise"])
         except (ValueError, KeyError, TypeError):
-            others.append(f"{path.relative_to(folder)}: is no notebook of an exercise, and was skipped")
+            exercise = ""
+        if exercise in names:
+            found.append(Notebook(name, exercise, path))
+        else:
+            which = f"exercise {exercise!r}, which is not in {exercises}" if exercise else "no exercise"
+            others.append(f"{path.relative_to(folder)}: is a notebook of {which}, and was skipped")
     return found, others
 
 
@@ -223,9 +224,6 @@ def graded_class(
         exercises: the folder of the exercises, by name.
         seconds: in which a notebook must end.
         progress: called with (notebooks graded, notebooks in all).
-
-    Raises:
-        InputError: an exercise is not there, or has no checks.
     """
     import matplotlib.pyplot  # noqa: F401  (before the processes fork: notebooks draw)
 

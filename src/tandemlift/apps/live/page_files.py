@@ -99,7 +99,7 @@ def with_script(files: Mapping[str, bytes], script: str | Path | None) -> Mappin
     if len(content) > MAX_SCRIPT:
         raise InputError(f"--script {script}: has {len(content)} bytes: must have {MAX_SCRIPT} at most")
     try:
-        tables = toml_tables(text := content.decode())
+        tables = toml_tables(text := content.decode("utf-8-sig"))
     except (ValueError, RecursionError) as error:
         raise InputError(f"--script {script} is not valid TOML: {error}") from None
     if not isinstance(steps := tables.get("steps"), list) or not steps:

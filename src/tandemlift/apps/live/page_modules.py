@@ -12,6 +12,7 @@ import gzip
 import hashlib
 import json
 import os
+import shlex
 import signal
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ProcessPoolExecutor, as_completed
@@ -115,7 +116,7 @@ class PageFlight:
         try:
             return kept(self._mission, "page", functools.partial(make, self._mission))
         except InputError as error:
-            live = " --controller ".join(filter(None, self.arguments))
+            live = " --controller ".join(map(shlex.quote, filter(None, self.arguments)))
             way = f"`tandemlift live {live}` also flies a controller with compiled=False"
             raise InputError(f"{error}. A page flies compiled code only; {way}.") from error
 

@@ -15,6 +15,7 @@ from tandemlift.core.files import __version__, write_file
 from tandemlift.missions import load_mission
 
 FOLDER = "flights"  # beside the page's other files
+MARK = 'id="flights"'  # in an index.html of ours
 SHOWN_INSTEAD = "one-push"  # mission of the flight that a browser without WebAssembly plays
 EVERY = 6  # frames of that flight, of which one is kept
 ONLY_SERVER = (

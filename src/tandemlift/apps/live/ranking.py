@@ -54,13 +54,15 @@ def scored(path: Path, challenge: Mapping[str, Any], free: tuple[str, ...]) -> H
         challenge: dotted keys of the mission that all were to fly, as a page flies it.
         free: keys, or tables of keys, that may differ from it.
     """
+    name = path.name.removesuffix(".zip")
     try:
-        return _flown_again(path, challenge, free)
+        score, hand = _flown_again(path, challenge, free)
     except InputError as error:
-        return HandedIn(path.stem, None, str(error))
+        return HandedIn(name, None, str(error))
+    return HandedIn(name, score, hand=hand)
 
 
-def _flown_again(path: Path, challenge: Mapping[str, Any], free: tuple[str, ...]) -> HandedIn:
+def _flown_again(path: Path, challenge: Mapping[str, Any], free: tuple[str, ...]) -> tuple[CorridorScore, bytes]:
     with without_flight_warnings():
         mission = load_mission(path if path.suffix == ".zip" else path / MISSION_FILE)
         if mission.person.recording is None:
@@ -71,7 +73,7 @@ def _flown_again(path: Path, challenge: Mapping[str, Any], free: tuple[str, ...]
     claimed = _claimed(path)
     if claimed is not None and abs(claimed - score.total) > EQUAL:
         raise InputError(f"{SCORE_FILE} says {claimed:.2f} s, but the recording flies {score.total:.2f} s")
-    return HandedIn(path.stem, score, hand=hand.steps.tobytes() + hand.hands.tobytes())
+    return score, hand.steps.tobytes() + hand.hands.tobytes()
 
 
 def _claimed(path: Path) -> float | None:

@@ -9,7 +9,7 @@ from typing import cast
 
 from tandemlift.apps.live.session import page_messages as page
 from tandemlift.apps.live.session.checks import check_repeatable
-from tandemlift.apps.live.session.hand_control import HandControl, hands_off
+from tandemlift.apps.live.session.hand_control import hands_off
 from tandemlift.apps.live.session.interactive_mission import with_whole_rotors
 from tandemlift.apps.live.session.parameters import scene_at
 from tandemlift.apps.live.session.server_messages import Answer, FlightScene, FlightStatus
@@ -21,6 +21,7 @@ class TwoFlights(Session):
     """A session beside whose flight a ghost may fly."""
 
     _ghost: RecordedFlight | None = None
+    _next_ghost: RecordedFlight | None = None  # of the flight that continues next
     _begun = _swaps = 0  # ghosts, and changes of places
 
     def prepare(self) -> None:
@@ -44,32 +45,37 @@ class TwoFlights(Session):
         Raises:
             InputError: it cannot be done; the text says why.
         """
-        ghost = self._ghost
         if isinstance(message, page.CompareMessage) and self.is_ready:
             self._compare(message)
             self.generation += 1
             return []
-        if ghost is None or not isinstance(message, (page.ResetMessage, page.RewindMessage, page.FlyMessage)):
+        if not isinstance(message, (page.ResetMessage, page.RewindMessage, page.FlyMessage)):
             return super().apply(message)
-        with self._parameters.turn:
-            if isinstance(message, page.RewindMessage):
-                self.pacer.paused = True
-                steps = min(round(message.time / ghost.dt) + 1, self._flight.step)
-                again = self._flown_again(ghost, steps)
-            elif isinstance(message, page.ResetMessage):
-                again = RecordedFlight(with_whole_rotors(ghost.now, self._mission), self._engine)
-                again.hold()
-                again.advance()
-            with self._lock:
-                answers = super().apply(message)
-                self._ghost = None if isinstance(message, page.FlyMessage) else again
-                if isinstance(message, page.RewindMessage):
-                    again.hold(self._flight.hand)
-        return answers
+        with self.turn:
+            self._next_ghost = self._ghost_after(message)  # without the lock, which frames need
+            return super().apply(message)
+
+    def _ghost_after(self, message: page.PageMessage) -> RecordedFlight | None:
+        """The ghost after a message by which another flight is in progress."""
+        ghost = self._ghost
+        if ghost is None or isinstance(message, page.FlyMessage):
+            return None
+        if isinstance(message, page.RewindMessage):
+            self.pacer.paused = True
+            return self._flown_again(ghost, min(round(message.time / ghost.dt) + 1, self._flight.step))
+        again = RecordedFlight(with_whole_rotors(ghost.now, self._mission), self._engine)
+        again.hold()
+        again.advance()
+        return again
+
+    def _continue(self, flight: RecordedFlight) -> None:
+        """Let a flight be the one in progress, and its ghost with it."""
+        super()._continue(flight)
+        self._ghost = self._next_ghost
 
     def _compare(self, message: page.CompareMessage) -> None:
         check_repeatable(self._engine, "compare")
-        with self._parameters.turn:
+        with self.turn:
             if message.what == "keep":
                 past = self._flight
                 again = self._flown_again(past, past.step)
@@ -82,8 +88,8 @@ class TwoFlights(Session):
                 with self._lock:
                     for one in (self._flight, self._ghost):
                         hands_off(one)
-                    self._flight, self._ghost, self._failed = self._ghost, self._flight, False
-                    self._hand = HandControl(self._flight, self._frames.scene["vehicle"])
+                    self._next_ghost = self._flight
+                    self._continue(self._ghost)
                     self._swaps += 1
 
     # displayed values

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import shlex
 import signal
 import sys
 import threading
@@ -235,7 +236,8 @@ def _save(session: Session, save: str | None, say: Callable[[str], None]) -> Non
     if save:
         with without_flight_warnings():  # the mission was checked when it was loaded
             session.flight.snapshot().save(Path(save))
-        say(f"saved: {save}; `tandemlift run {Path(save) / 'recorded.toml'}` flies it again")
+        recorded = shlex.quote(str(Path(save) / "recorded.toml"))
+        say(f"saved: {save}; `tandemlift run {recorded}` flies it again")
 
 
 # ---- Which ROS it speaks

@@ -12,9 +12,11 @@ import math
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
-from tandemlift.core.files import FLIGHT_FILE, atomic_write
+from tandemlift.core.errors import InputError
+from tandemlift.core.files import FLIGHT_FILE
 from tandemlift.core.types import Progress
 from tandemlift.flight.record import Flight
 from tandemlift.missions import built_in, format_toml, load_mission, tables_of
@@ -143,7 +145,7 @@ def write_flight_files(
     progress: Progress | None = None,
     replay: str | None = None,
 ) -> None:
-    """Write the files of a flight, and its figures and report; figures of an earlier flight are removed.
+    """Write the files of a flight, and its figures and report; those of an earlier flight are removed.
 
     Args:
         flight: a flight, also one that diverged.
@@ -154,6 +156,7 @@ def write_flight_files(
     """
     with second_drawer(figures) as drawer:  # starts while the files are written
         _write_data(flight, folder)
+        (folder / "report.html").unlink(missing_ok=True)
         for name in captions():
             for kind in ("png", "pdf"):
                 (folder / "figures" / f"{name}.{kind}").unlink(missing_ok=True)
@@ -163,15 +166,20 @@ def write_flight_files(
 
 
 def _write_data(flight: Flight, folder: Path) -> None:
-    """Write mission, flight, metrics and findings."""
-    with atomic_write(folder / "mission.toml") as partial:
-        partial.write_text(format_toml(flight.mission), "utf-8")
-    flight.save(folder / FLIGHT_FILE)
-    with atomic_write(folder / "metrics.json") as partial:
-        partial.write_text(json.dumps(flight.metrics(), indent=2, allow_nan=False) + "\n", "utf-8")
-    write_metric_tables(
-        {"value": flight.metrics()}, folder, "metrics", f"Metrics of a flight of the mission {flight.name}"
-    )
-    with atomic_write(folder / "findings.json") as partial:
-        found = [finding.as_table() for finding in flight.findings]
-        partial.write_text(json.dumps(found, indent=2, allow_nan=False) + "\n", "utf-8")
+    """Write mission, flight, metrics and findings: all of them, or none."""
+    try:
+        with TemporaryDirectory(prefix=".", dir=folder) as name:
+            aside = Path(name)
+            (aside / "mission.toml").write_text(format_toml(flight.mission), "utf-8")
+            flight.save(aside / FLIGHT_FILE)
+            for file, data in (
+                ("metrics.json", flight.metrics()),
+                ("findings.json", [finding.as_table() for finding in flight.findings]),
+            ):
+                (aside / file).write_text(json.dumps(data, indent=2, allow_nan=False) + "\n", "utf-8")
+            note = f"Metrics of a flight of the mission {flight.name}"
+            write_metric_tables({"value": flight.metrics()}, aside, "metrics", note)
+            for path in sorted(aside.iterdir()):
+                path.replace(folder / path.name)
+    except OSError as error:
+        raise InputError(f"{folder}: the flight cannot be written: {error.strerror or error}") from error

@@ -45,6 +45,14 @@ def test_the_folder_of_another_study_is_refused_and_stays(twelve, changed, said)
     assert stamps(twelve) == before
 
 
+def test_the_study_file_that_is_flown_is_not_replaced(tmp_path):
+    own, text = tmp_path / "study.toml", '[study]\nname = "mine"  # my comment\nmissions = ["hover"]\n'
+    own.write_text(text, "utf-8")
+    with pytest.raises(InputError, match=r"would replace .*study\.toml: choose another --out"):
+        open_folder(load_plan(own), tmp_path)
+    assert (own.read_text("utf-8"), [*tmp_path.iterdir()]) == (text, [own])
+
+
 def test_a_controller_s_file_that_changed_since_is_named(tmp_path):
     path = tmp_path / "changing.py"
     path.write_text(LAW.replace("my-pd", "changing"), "utf-8")

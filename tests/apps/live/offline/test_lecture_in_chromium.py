@@ -144,7 +144,7 @@ def test_the_command_writes_a_page_that_begins_with_the_script_that_ships(browse
 
 @pytest.mark.parametrize(
     ("text", "reason"),
-    [("[[steps]]\ntext = ", "is not valid TOML"), ("title = 'a'", "must be one table [[steps]] or more")],
+    [("[[steps]]\ntext = ", "is not valid TOML"), ("\ufefftitle = 'a'", "must be one table [[steps]] or more")],
 )
 def test_the_command_refuses_what_is_no_script(tmp_path, text, reason):
     (tmp_path / "talk.toml").write_text(text, "utf-8")

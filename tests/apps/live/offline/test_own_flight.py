@@ -179,8 +179,9 @@ def test_flights_are_shipped_as_files_and_taken_from_there(hover, tmp_path, monk
 
 def test_the_verb_writes_both_forms(hover, tmp_path):
     where = ["--html", str(tmp_path / "one.html"), "--out", str(tmp_path / "site")]
-    done = CliRunner().invoke(cli, ["page", "hover", *where], standalone_mode=False)
-    assert done.exception is None
+    for _ in range(2):  # over its own files, too
+        done = CliRunner().invoke(cli, ["page", "hover", *where], standalone_mode=False)
+        assert done.exception is None
     assert (tmp_path / "one.html").stat().st_size < 3e6
     site = tmp_path / "site"
     assert {"index.html", "page.js", "page.css", "worker.js"} <= {file.name for file in site.iterdir()}
@@ -207,6 +208,14 @@ def test_what_the_verb_cannot_do_is_refused(arguments, text, tmp_path, monkeypat
     assert isinstance(done.exception, tl.InputError)
     assert text in str(done.exception)
     assert not list(tmp_path.iterdir())
+
+
+def test_the_verb_leaves_the_index_of_another_site(tmp_path):
+    own = tmp_path / "index.html"
+    own.write_text("<title>my site</title>", "utf-8")
+    done = CliRunner().invoke(cli, ["page", "hover", "--out", str(tmp_path)], standalone_mode=False)
+    assert str(done.exception).startswith(f"{own}: tandemlift did not write it, so it stays: give another")
+    assert (own.read_text("utf-8"), list(tmp_path.iterdir())) == ("<title>my site</title>", [own])
 
 
 def test_a_controller_that_branches_on_data_is_refused_with_the_line_and_what_flies_it(tmp_path):

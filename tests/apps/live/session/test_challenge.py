@@ -95,24 +95,24 @@ def test_what_was_edited_is_refused_by_its_name(handed_in, tmp_path, file, old, 
 
 def test_what_participants_may_change_is_free(handed_in, tmp_path):
     challenge = tl.load_mission(handed_in / "class.toml", {"admittance.damping": 1.0})
-    pulled(challenge, (1.0, 0.0, 0.0), 10.0).save(tmp_path / "dora")
+    pulled(challenge, (1.0, 0.0, 0.0), 10.0).save(tmp_path / "dora-4.5s")
     code, said, _ = run(tmp_path, "--mission", handed_in / "class.toml")
     assert code == 3
-    assert "admittance.damping = " in said
+    assert "dora-4.5s refused: admittance.damping = " in said
     code, said, _ = run(tmp_path, "--mission", handed_in / "class.toml", "--free", "admittance")
     assert code == 0
-    assert "dora" in said
+    assert said.splitlines()[1].split()[:2] == ["1", "dora-4.5s"]
 
 
 def test_a_file_of_a_page_without_a_server_is_ranked_although_it_rounds_in_its_own_way(handed_in, tmp_path):
     challenge = tl.load_mission(handed_in / "class.toml", {"mission.fma": False})  # as in `page_modules.page_mission`
     pulled(challenge, (1.5, 0.0, 0.0), 9.0).save(tmp_path / "saved")
     (tmp_path / "in").mkdir()
-    with zipfile.ZipFile(tmp_path / "in" / "emil.zip", "w") as archive:
+    with zipfile.ZipFile(tmp_path / "in" / "emil-3.1s.zip", "w") as archive:
         for name in ("recorded.toml", "hand.npz"):
             archive.write(tmp_path / "saved" / name, name)
     code, said, _ = run(tmp_path / "in", "--mission", handed_in / "class.toml")
-    assert (code, said.splitlines()[1].split()[:2]) == (0, ["1", "emil"])
+    assert (code, said.splitlines()[1].split()[:2]) == (0, ["1", "emil-3.1s"])
 
 
 def test_a_zip_with_another_score_a_copy_another_mission_and_other_files_are_told(handed_in, tmp_path):

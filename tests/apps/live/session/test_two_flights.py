@@ -1,7 +1,10 @@
 """A ghost under the same hand: each flight is bit-identical to one that flies alone with its settings."""
 
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
+from patience import PATIENCE
 from sessions import GUIDED
 
 import tandemlift as tl
@@ -47,7 +50,21 @@ def alone(flight):
     return again.sample
 
 
-def test_a_ghost_keeps_its_settings_and_feels_the_same_hand(session):
+@pytest.fixture
+def frames_while_flown_again(session, monkeypatch):
+    """How many frames a page got while flights were flown again."""
+    frames, flown_again = [], session._flown_again
+    with ThreadPoolExecutor(1) as a_page:
+
+        def watched(past, steps):
+            frames.append(a_page.submit(session.frame).result(PATIENCE))
+            return flown_again(past, steps)
+
+        monkeypatch.setattr(session, "_flown_again", watched)
+        yield frames
+
+
+def test_a_ghost_keeps_its_settings_and_feels_the_same_hand(session, frames_while_flown_again):
     assert "ghost" not in session.scene
     session._fly(HOVERS)
     push(session, (0.0, 1.0, 0.0), 500)
@@ -71,6 +88,7 @@ def test_a_ghost_keeps_its_settings_and_feels_the_same_hand(session):
     assert own.step == ghost.step
     session.apply(RewindMessage(seq=5, time=(HOVERS + 800) * own.dt))
     assert session._flight.step == session._ghost.step == HOVERS + 801
+    assert len(frames_while_flown_again) == 3  # to keep the ghost, and for both flights from here
     session.apply(ResetMessage(seq=6))
     session._fly(100)
     assert session._flight.step == session._ghost.step == 101

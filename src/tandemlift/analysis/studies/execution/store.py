@@ -15,7 +15,7 @@ from tandemlift.analysis.studies.design.study_files import checked_settings
 from tandemlift.analysis.studies.design.variants import variant_from
 from tandemlift.analysis.studies.execution.checked_file import CheckedFile, DamagedFile
 from tandemlift.analysis.studies.execution.chunk import chunk_names, sources_digest, study_digest
-from tandemlift.analysis.studies.execution.columns import NOT_KEPT, Columns, write_columns
+from tandemlift.analysis.studies.execution.columns import ALWAYS, NOT_KEPT, WHOLE, Columns, write_columns
 from tandemlift.core.errors import InputError, extra, shown, unknown
 from tandemlift.core.files import __version__, write_file
 from tandemlift.flight.channels import DERIVED
@@ -142,9 +142,7 @@ def open_folder(plan: StudyPlan, path: Path) -> StudyFolder:
     Raises:
         InputError: a kept metric or channel does not exist, or the folder holds another study or cannot be written to.
     """
-    with extra("study", "a study"):  # before anything flies
-        import pyarrow  # noqa: F401
-    check_kept(plan)  # else a name that no flight has would only be missing in the table
+    check_names(plan)
     contents = _contents(plan)
     if (path / PLAN).exists():
         folder = StudyFolder(path)
@@ -174,9 +172,12 @@ def _contents(plan: StudyPlan) -> dict[str, Any]:
 
 
 def _make(path: Path, contents: dict[str, Any]) -> None:
+    text = format_toml(contents["settings"])
     try:
+        if (path / STUDY).exists() and (path / STUDY).read_text("utf-8", "replace") != text:
+            raise InputError(f"--out {path}: would replace {path / STUDY}: choose another --out, or move it")
         (path / CHUNKS).mkdir(parents=True, exist_ok=True)
-        write_file(path / STUDY, format_toml(contents["settings"]))
+        write_file(path / STUDY, text)
         write_file(path / PLAN, json.dumps(contents) + "\n")  # last: with it, the folder is a study's
     except OSError as error:
         raise InputError(f"--out {path}: cannot be made or written to: {error.strerror or error}") from None
@@ -231,18 +232,21 @@ def _difference(folder: StudyFolder, plan: StudyPlan) -> str:
     return "its missions differ from those that their files say now"
 
 
-def check_kept(plan: StudyPlan) -> None:
-    """Check that each metric and channel that `[keep]` names comes from some flight of a study.
+def check_names(plan: StudyPlan, reported: Iterable[str] = ()) -> None:
+    """Check, before anything flies, each name in `[keep]`, and those of a report, such as `position_rmse_m.0`.
 
     Raises:
-        InputError: none has it; the message lists the existing ones.
+        InputError: no flight has it; the message lists the existing ones. Or what writes tables is not installed.
     """
-    keep = plan.settings.keep
-    if not keep.metrics and not keep.channels:
+    with extra("study", "a study"):
+        import pyarrow  # noqa: F401
+    keep, stems = plan.settings.keep, [name.partition(".")[0] for name in reported]
+    if not keep.metrics and not keep.channels and not stems:
         return
     flights = list(_samples(plan))
     metrics = [name for name in _together(map(metric_names, flights)) if name not in NOT_KEPT]
     _check("metric of keep.metrics", keep.metrics, metrics)
+    _check("metric of --for", stems, [name for name in keep.metrics or metrics if name not in (*ALWAYS, *WHOLE)])
     if keep.channels:
         _check("channel of keep.channels", keep.channels, [*_together(map(channel_names, flights)), *DERIVED])
 

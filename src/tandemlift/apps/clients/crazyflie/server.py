@@ -109,18 +109,18 @@ class CrazyflieServer:
         """Listen.
 
         Raises:
-            InputError: a port is in use.
+            InputError: a port is in use, or is none.
         """
         for i, device in enumerate(self.devices):
             listening = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
             try:
                 listening.bind((self._host, self._port + i if self._port else 0))
-            except OSError as error:
+            except (OSError, OverflowError) as error:
                 listening.close()
                 self._close()
                 raise InputError(
                     f"--udp-port {self._port}: Crazyflie {i + 1} cannot listen on {self._host}:{self._port + i} "
-                    f"({error.strerror}); another simulator may run there: end it, or give another port"
+                    f"({error}); another simulator may run there: end it, or give another port"
                 ) from error
             listening.setblocking(False)
             self._endpoints.append(Endpoint(device, listening))
@@ -166,4 +166,8 @@ def channels_of(flight: RealTimeFlight) -> dict[str, Channel]:
 def parameters_of(flight: RealTimeFlight) -> dict[str, CrtpParameter]:
     """The numbers of a mission that can be changed in flight and whose names fit into a table."""
     numbers = mission_numbers(flight)
-    return {f"{g}.{name}": CrtpParameter("f", one.value, one.changed) for g, name, one in numbers if fits(g, name)}
+    return {
+        f"{g}.{name}": CrtpParameter("f", one.read(), one.take, read=one.read)
+        for g, name, one in numbers
+        if fits(g, name)
+    }

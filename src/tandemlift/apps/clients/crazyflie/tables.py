@@ -154,7 +154,10 @@ class LogService:
 
 @dataclass
 class CrtpParameter:
-    """A parameter: format and value; what is called with a new value, which may refuse it; whether it can be stored."""
+    """A parameter: format and value; what is called with a new value, which may refuse it; whether it can be stored.
+
+    `read` has the value of one that others change, too.
+    """
 
     letter: str
     value: float
@@ -162,6 +165,7 @@ class CrtpParameter:
     read_only: bool = False
     persistent: bool = False
     stored: float | None = None
+    read: Callable[[], float] | None = None
 
     def __post_init__(self) -> None:
         self.default = self.value
@@ -174,7 +178,7 @@ class CrtpParameter:
     @property
     def data(self) -> bytes:
         """The value in a packet."""
-        return packed(self.letter, self.value)
+        return packed(self.letter, self.read() if self.read else self.value)
 
     def take(self, data: bytes) -> bool:
         """Take the value in a packet; whether it is allowed."""

@@ -40,7 +40,7 @@ class MavlinkParameters:
         if name not in self.names:
             raise InputError(f"no parameter {name}")
         key, kind = self._keys.get(name), mavlink.MAV_PARAM_TYPE_REAL32
-        value = key.value if key else self.modes[name] if name in self.modes else self._readings[name]()
+        value = key.read() if key else self.modes[name] if name in self.modes else self._readings[name]()
         if name == LOSS_ACTION:  # a whole number, of which a client gets the bytes
             kind, (value,) = mavlink.MAV_PARAM_TYPE_INT32, struct.unpack("<f", struct.pack("<i", round(value)))
         return mavlink.MAVLink_param_value_message(name.encode(), value, kind, len(self.names), self.names.index(name))

@@ -26,24 +26,23 @@ CHUNK = 1000  # rows that are written at once, in less than a millisecond
 
 
 def save_in_process(snapshot: FlightSnapshot, folder: Path) -> None:
-    """Write mission, hand and flight into a folder; returns when all is written.
+    """Write mission, hand and flight into a new folder; returns when all is written.
 
     Raises:
-        InputError: the folder cannot be written.
+        InputError: the folder is there already, or cannot be written.
         RuntimeError: the process failed.
     """
     try:
-        _save_in_process(snapshot, folder)
+        folder.mkdir(parents=True)
+        snapshot.save_mission(folder)
+        with tempfile.TemporaryDirectory(prefix=".", dir=folder) as spool:
+            _spool(snapshot, Path(spool))
+            command = [sys.executable, "-m", "tandemlift.apps.live.session.saving", str(folder), spool]
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
+    except FileExistsError:  # made, not looked for: another page may save at the same time
+        raise InputError(f"{folder}: the name is taken: choose another") from None
     except OSError as error:
         raise InputError(f"{folder}: cannot be written: {error.strerror or error}") from error
-
-
-def _save_in_process(snapshot: FlightSnapshot, folder: Path) -> None:
-    snapshot.save_mission(folder)
-    with tempfile.TemporaryDirectory(prefix=".", dir=folder) as spool:
-        _spool(snapshot, Path(spool))
-        command = [sys.executable, "-m", "tandemlift.apps.live.session.saving", str(folder), spool]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:
         raise RuntimeError(f"{folder} could not be saved: {done.stderr.strip()[-200:]}")
 

@@ -13,8 +13,6 @@ from functools import partial, singledispatchmethod
 from pathlib import Path
 from typing import Any
 
-from numpy.typing import ArrayLike
-
 from tandemlift.apps.live.session import page_messages as page
 from tandemlift.apps.live.session import server_messages as server
 from tandemlift.apps.live.session.checks import NO_REQUESTS, check_may_tare, check_repeatable
@@ -51,6 +49,7 @@ class Session:
         is_ready: whether the flight is compiled; until then the vehicle is shown at its start.
         watchers: called after every step, in the flight's thread.
         pacer: the pace of the flight.
+        turn: lock of who changes the flight.
 
     Raises:
         InputError: the mission cannot be flown interactively, or cannot be built.
@@ -64,6 +63,7 @@ class Session:
         self._lock, self.pacer = threading.RLock(), Pacer(mission.mission.step)
         self._thread = RealTimeThread(self.pacer, self._lock, self._is_prepared, self._fly)
         self._parameters = ParameterControl(tables_of(self._mission), self._lock)
+        self.turn = self._parameters.turn
         self._failed, self._findings = False, FlightFindings()
         self.generation, self.watchers = 1, list[Callable[[RecordedFlight], None]]()
         self._flight: RecordedFlight
@@ -76,19 +76,24 @@ class Session:
         """Compile the flight, and take its first step; once."""
         if not self.is_ready:
             self._preparation.step = "compiling the flight loop"
-            self._begin(self._first, self._frames)
+            self._begin(self._first)
             self.is_ready = True
 
-    def _begin(self, setup: FlightSetup, frames: FrameBuilder, other: Mission | None = None) -> None:
+    def _begin(self, setup: FlightSetup, other: Mission | None = None) -> None:
         """Begin a flight; `other`: the mission that its parameters are restored to, if that is another one."""
-        flight = RecordedFlight(setup.plan.mission, self._engine, setup)
+        flight, frames = RecordedFlight(setup.plan.mission, self._engine, setup), FrameBuilder(setup.plan)
         flight.hold()
         flight.advance()
         with self._lock:
             if other is not None:
                 self._mission, self._parameters.first, self.pacer.dt = other, tables_of(other), flight.dt
-            self._flight, self._frames = flight, frames
-            self._hand, self._failed = HandControl(flight, frames.scene["vehicle"]), False
+            self._frames = frames
+            self._continue(flight)
+
+    def _continue(self, flight: RecordedFlight) -> None:
+        """Let a flight be the one in progress; to be called with the lock."""
+        self._flight, self._failed = flight, False
+        self._hand = HandControl(flight, self._frames.scene["vehicle"])
 
     @property
     def flight(self) -> RecordedFlight:
@@ -144,9 +149,8 @@ class Session:
             return self._frames.first()
         with self._lock:
             moment, hand, seq, frames = self._flight.moment, self._flight.hand, self._hand.seq, self._frames
-        held: dict[str, ArrayLike] = {"held": hand.held, "hand_point": hand.grip, "hand_target": hand.target}
-        held["push_point"] = hand.grip
-        return frames.frame({**frames.values(*moment), **held, "seq": seq % 2**24})
+        points = {"hand_point": hand.grip, "hand_target": hand.target, "push_point": hand.grip}
+        return frames.frame({**frames.values(*moment), **points, "held": hand.held, "seq": seq % 2**24})
 
     def channels(self) -> dict[str, Any]:
         """The channels of the latest sample (1, …)."""
@@ -231,21 +235,19 @@ class Session:
 
     @_handle.register
     def _reset(self, m: page.ResetMessage) -> None:
-        with self._parameters.turn:
-            setup = self._setup(with_whole_rotors(self._flight.now, self._mission))
-            self._begin(setup, FrameBuilder(setup.plan))
+        with self.turn:
+            self._begin(self._setup(with_whole_rotors(self._flight.now, self._mission)))
             self.generation += 1
 
     @_handle.register
     def _rewind(self, m: page.RewindMessage) -> None:
         check_repeatable(self._engine)
-        with self._parameters.turn:
+        with self.turn:
             past, self.pacer.paused = self._flight, True
             again = self._flown_again(past, round(m.time / past.dt) + 1)
             hands_off(again)
             with self._lock:
-                self._flight, self._failed = again, False
-                self._hand = HandControl(again, self._frames.scene["vehicle"])
+                self._continue(again)
             self.generation += 1
 
     def _flown_again(self, past: RecordedFlight, steps: int) -> RecordedFlight:
@@ -256,10 +258,9 @@ class Session:
 
     @_handle.register
     def _fly_another(self, m: page.FlyMessage) -> list[server.Answer]:
-        with self._parameters.turn:
+        with self.turn:
             mission = other_mission(m)
-            setup = self._setup(mission)
-            self._begin(setup, FrameBuilder(setup.plan), mission)
+            self._begin(self._setup(mission), mission)
             self.generation += 1
         self._flight.optimise()
         return [server.DoneMessage(type="done", what="fly", detail=m.mission)]
@@ -268,8 +269,7 @@ class Session:
     def _save(self, m: page.SaveMessage) -> list[server.Answer]:
         with self._lock:
             snapshot = self._flight.snapshot()
-        folder = self._out / m.name
-        save_in_process(snapshot, folder)
+        save_in_process(snapshot, folder := self._out / m.name)
         return [server.DoneMessage(type="done", what="save", detail=str(folder))]
 
     @_handle.register
