@@ -24,9 +24,10 @@ def test_a_lift_in_the_air_says_why_it_is_refused_where_one_points_at_it_and_whe
     until(lambda: "the vehicle is in the air already" in told(page, "#refusal:not(.asked)"), "the reason")
     page.hover("#views")
     until(lambda: not page.is_visible("#refusal"), "no reason")
-    lift.click()
+    lift.click(force=True)  # it is marked as disabled
     until(lambda: "the vehicle is in the air already" in told(page, "#refusal.asked"), "a reason")
-    button, note = page.locator("#dock button.refused").first.bounding_box(), page.locator("#refusal").bounding_box()
+    refused = page.locator("#dock [aria-disabled=true]").first
+    button, note = refused.bounding_box(), page.locator("#refusal").bounding_box()
     assert note["y"] + note["height"] <= button["y"]
     assert button["y"] - note["y"] < 120.0
     assert "in the air already" not in page.text_content("#notices")
@@ -59,7 +60,7 @@ def test_a_crash_is_marked_told_and_left_by_beginning_again(page, live):
     assert re.search(r": hit the floor: \d+(\.\d+)? of 7 N s$", live.status["ending"]["text"])
     until(lambda: "crashed here" in told(page, ".label.ending"), "a mark where it crashed")
     assert told(page, "#mode") == "crashed"
-    page.get_by_role("button", name="Lift").click()
+    page.get_by_role("button", name="Lift").click(force=True)
     until(lambda: has_said(page, "Begin the flight again."), "a reason")
     page.get_by_role("button", name="Begin again").click()
     live.wait_status(lambda status: status["phase"] in ("guided", "hold"), "hover")
