@@ -163,7 +163,7 @@ async def seen(address: str, looker: Looker, size: ViewportSize, *flags: str) ->
         await page.goto(address)
         await until(page, "#meters .pictures dd", "[1-9]")
         picture = time.perf_counter() - began
-        await until(page, "#mode", "guided|hold")
+        await until(page, "#mode", "follows|hold")
         measured = await pulled(page, looker)
         await browser.close()
     return picture, *measured

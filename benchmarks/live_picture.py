@@ -66,7 +66,7 @@ async def taken(address: str) -> list[Image.Image]:
         browser = await playwright.chromium.launch(executable_path=CHROMIUM, args=list(FLAGS))
         page = await browser.new_page(viewport=SIZE)
         await page.goto(address)
-        await until(page, "#mode", "guided")
+        await until(page, "#mode", "follows")
         await page.get_by_text("level", exact=True).first.click()
         await page.click("#show-panel")
         await page.get_by_label("Speed of the flight").select_option(SLOWLY)

@@ -87,7 +87,7 @@ def test_a_tare_is_counted_down_and_no_text_over_the_picture_covers_another(brow
     page = opened(browser, live.address, prepare)
     for size in ((1920, 1080), (1280, 800), (800, 450), (390, 844)):
         page.set_viewport_size({"width": size[0], "height": size[1]})
-        until(lambda: told(page, "#hint") == "Do not touch: 1.4 s of tare left", "the countdown")
+        until(lambda: told(page, "#hint") == "Zeroing the force sensors: do not touch for 1.4 s", "the countdown")
         page.evaluate("document.querySelector('#hint').textContent += ', and nothing that is as long as this'")
         boxes = page.evaluate(BOXES)
         assert any("touched" in name for name, *_ in boxes) or size != (1920, 1080)  # it stays for 6 s
