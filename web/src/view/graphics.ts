@@ -18,7 +18,7 @@ export function suitableGraphics(): Graphics {
 
 /** Measures the pictures drawn per second, and detects a machine that is too slow. */
 export class FrameRate {
-  rate = 0; // pictures/s over the last second
+  rate: number | null = 0; // pictures/s over the last second; null at rest, when few are drawn on purpose
   private drawn = 0;
   private count = 0;
   private since = 0;
@@ -32,7 +32,7 @@ export class FrameRate {
     if (passed < 1) return false;
     if (passed < 2) {
       // a longer pause is a hidden page, not a slow one
-      this.rate = this.drawn / passed;
+      this.rate = resting ? null : this.drawn / passed;
       this.slow = this.count / passed < SLOW && !resting ? this.slow + passed : 0;
     }
     this.since = now;
