@@ -47,9 +47,12 @@ def test_a_lift_in_the_air_says_why_it_is_refused_where_one_points_at_it_and_whe
 
 
 def test_a_push_that_is_not_followed_says_so_at_the_hand(page, live):
+    page.get_by_role("button", name="Lift").click(force=True)
+    until(lambda: told(page, "#refusal.asked"), "a reason")
     page.get_by_role("button", name="Follows me").click()
     live.wait_status(lambda status: not status["enabled"], "a pilot that does not listen")
     x, y = grabbed(page, live)
+    until(lambda: not page.is_visible("#refusal"), "room for what is said at the hand")
     page.mouse.move(x + 60, y, steps=4)
     until(
         lambda: "told not to follow pushes. Let it follow again." in told(page, ".label.refusal"),
