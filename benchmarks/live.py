@@ -145,7 +145,7 @@ async def pulled(page: Page, looker: Looker) -> tuple[float, float, float]:
         sent.add(told := asyncio.create_task(mouse.send("Input.dispatchMouseEvent", event)))
         told.add_done_callback(sent.discard)
         if passed > 2.0 and len(shown) < passed:
-            texts = [await page.locator(f"#meters .{n} dd").text_content() for n in ("latency", "pictures")]
+            texts = [await page.locator(f"#meters .{n} dd").text_content() for n in ("latency", "frame-rate")]
             shown.append([float(f[0]) if (f := re.match(r"\d+", text or "")) else math.nan for text in texts])
         await asyncio.sleep(1.0 / MOUSE)
     count = looker.targets - first
@@ -161,9 +161,9 @@ async def seen(address: str, looker: Looker, size: ViewportSize, *flags: str) ->
         page = await browser.new_page(viewport=size)
         began = time.perf_counter()
         await page.goto(address)
-        await until(page, "#meters .pictures dd", "[1-9]")
+        await until(page, "#meters .frame-rate dd", "[1-9]|rest")
         picture = time.perf_counter() - began
-        await until(page, "#mode", "guided|hold")
+        await until(page, "#mode", "follows|hold")
         measured = await pulled(page, looker)
         await browser.close()
     return picture, *measured

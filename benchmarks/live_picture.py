@@ -22,6 +22,7 @@ from waiting import PATIENCE
 SIZE, SHOWN = {"width": 1200, "height": 750}, (720, 450)
 EVERY, SECONDS, SLOWLY = 0.125, 8.0, "0.1"  # s of flight; pace
 WAY = np.array([[0.0, 0.0], [5.0, 0.0], [10.0, 3.0], [15.0, 0.0]])  # m, of the corridor
+FOLLOWS = 0.5  # s after which the vehicle follows, and the animation begins
 AHEAD, PULL, PIXELS = 1.4, 0.42, 55.0  # m ahead on the way, m that the hand is ahead, pixels a metre of correction
 
 
@@ -38,10 +39,17 @@ def ahead_of(place: np.ndarray) -> np.ndarray:
     return way / np.linalg.norm(way)
 
 
+class Overheard(Looker):
+    """One who hears what the server tells the page, and is no second page at the flight."""
+
+    def watch(self) -> None:
+        """Watch nothing by itself."""
+
+
 async def led(page: Page, looker: Looker) -> list[Image.Image]:
     """Pictures of the page while the beam is led along the corridor."""
     x, y = await grabbed(page)
-    pictures, due = list[Image.Image](), looker.seen["time"][0]
+    pictures, due = list[Image.Image](), looker.seen["time"][0] + FOLLOWS
     end, over = due + SECONDS, time.monotonic() + PATIENCE
     while looker.seen["time"][0] < end:
         if time.monotonic() > over:
@@ -62,11 +70,12 @@ async def led(page: Page, looker: Looker) -> list[Image.Image]:
 async def taken(address: str) -> list[Image.Image]:
     """Pictures of the page at an address."""
     async with async_playwright() as playwright:
-        looker = Looker(address)
+        looker = Overheard(address)
         browser = await playwright.chromium.launch(executable_path=CHROMIUM, args=list(FLAGS))
         page = await browser.new_page(viewport=SIZE)
+        page.on("websocket", lambda socket: socket.on("framereceived", looker.hear))
         await page.goto(address)
-        await until(page, "#mode", "guided")
+        await until(page, "#mode", "follows")
         await page.get_by_text("level", exact=True).first.click()
         await page.click("#show-panel")
         await page.get_by_label("Speed of the flight").select_option(SLOWLY)

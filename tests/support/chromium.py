@@ -188,7 +188,7 @@ def with_still_camera(page):
 
 def stopped(page):
     """Stop the rotors in the air, and answer the question; once the page knows that the vehicle flies."""
-    until(lambda: page.text_content("#mode") in ("guided", "holding"), "a status on the page")
+    until(lambda: page.text_content("#mode") in ("follows pushes", "holding"), "a status on the page")
     page.get_by_role("button", name="Stop").click()
     page.locator("#question").get_by_role("button", name="Stop").click()
 

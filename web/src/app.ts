@@ -13,9 +13,9 @@ import { rememberedShown } from "./ui/show_menu.ts";
 import { type ThemeChoice, ThemeSwitch } from "./ui/theme.ts";
 import { ChaseCamera, type View } from "./view/camera.ts";
 import { FrameRate, type Graphics, type GraphicsChoice, suitableGraphics } from "./view/graphics.ts";
-import { Label } from "./view/labels.ts";
+import { labelsIn } from "./view/labels.ts";
 import { setPalette, type Theme } from "./view/palette.ts";
-import { type Labels, Picture } from "./view/picture.ts";
+import { Picture } from "./view/picture.ts";
 import { Rest } from "./view/rest.ts";
 import { Stage } from "./view/stage.ts";
 import { beamAxis } from "./view/vehicle.ts";
@@ -50,7 +50,7 @@ export class App implements FlightListener, ShellPage {
   private readonly shell: Shell;
   private readonly remarks = new Remarks();
   private readonly rest = new Rest((now) => this.tick(now));
-  private readonly labels: Labels = { push: label("push"), moment: label("moment"), wind: label("wind"), refusal: label("refusal"), ending: label("ending"), contact: label("contact") };
+  private readonly labels = labelsIn(byId("labels"));
   private picture: Picture | null = null;
   private choice: GraphicsChoice = "auto";
   private last = 0;
@@ -268,8 +268,4 @@ export class App implements FlightListener, ShellPage {
     Object.assign(this.picture, { threshold, stiffness });
     this.drawn = null;
   }
-}
-
-function label(kind: string): Label {
-  return new Label(byId("labels"), kind);
 }

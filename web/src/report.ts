@@ -11,18 +11,18 @@ import { bytes } from "./wire/replay.ts";
 const HEIGHT = 190; // pixels of a plot
 const [START, LONG] = [1, 5]; // s: a disturbed start sets no scale where at least so much is seen
 const COLORS = ["--plot-1", "--plot-2", "--plot-3", "--plot-4"];
-const VECTORS: [string, string, FrameFieldName, FrameFieldName?][] = [
-  ["Position (dashed: reference)", "m", "position", "reference"],
+const VECTORS: [string, string, FrameFieldName, FrameFieldName?, string?][] = [
+  ["Position (dashed: reference)", "m", "position", "reference", "ref"],
   ["Velocity", "m/s", "velocity"],
-  ["Push (dashed: as the pilot uses it)", "N", "push", "pilot_push"],
+  ["Push (dashed: as the pilot uses it)", "N", "push", "pilot_push", "pilot"],
   ["Estimated disturbance", "N", "disturbance"],
   ["Wind", "m/s", "wind"],
 ];
 
 interface Curve {
   label: string;
-  color: number;
-  dashed: boolean;
+  color: string;
+  dashed: boolean; // over others, in another colour: it often lies on one of them
   values: Float32Array;
 }
 
@@ -51,16 +51,17 @@ class Columns {
   }
 }
 
-function vector(columns: Columns, name: FrameFieldName, dashed: boolean): Curve[] {
-  const suffix = dashed ? "\u2032" : "";
-  return columns.of(name).map((values, i) => ({ label: `${"xyz"[i]}${suffix}`, color: i, dashed, values }));
+function vector(columns: Columns, name: FrameFieldName, suffix = ""): Curve[] {
+  const dashed = suffix !== "";
+  return columns.of(name).map((values, i) => ({ label: `${"xyz"[i]} ${suffix}`.trim(), color: dashed ? "--ink" : COLORS[i], dashed, values }));
 }
 
 /** The thrusts, with a colour for each quadrotor. */
 function thrusts(columns: Columns): Curve[] {
   const owners = columns.scene.vehicle.quadrotors.flatMap((q, n) => q.rotors.map((_, i) => [n, i]));
-  const label = (k: number): string => `${owners[k][0] + 1}.${owners[k][1] + 1}`;
-  const curve = (values: Float32Array, k: number): Curve => ({ label: label(k), color: owners[k][0], dashed: false, values });
+  const label = (k: number): string => `rotor ${owners[k][0] + 1}.${owners[k][1] + 1}`;
+  const color = (k: number): string => COLORS[owners[k][0] % COLORS.length];
+  const curve = (values: Float32Array, k: number): Curve => ({ label: label(k), color: color(k), dashed: false, values });
   return columns.of("thrusts").map(curve);
 }
 
@@ -74,10 +75,9 @@ function range(curves: Curve[], time: Float32Array, [first, last]: [number, numb
 }
 
 function plot(title: string, unit: string, time: Float32Array, curves: Curve[], place: HTMLElement, seek: (time: number) => void): void {
-  const color = (n: number) => () => getComputedStyle(place).getPropertyValue(COLORS[n % COLORS.length]);
   const ink = (name: string) => () => getComputedStyle(place).getPropertyValue(name);
   const axis = { stroke: ink("--soft"), grid: { stroke: ink("--line"), width: 1 }, ticks: { show: false } };
-  const series = curves.map((c) => ({ label: c.label, stroke: color(c.color), width: 1.3, points: { show: false }, ...(c.dashed && { dash: [5, 4] }) }));
+  const series = curves.map((c) => ({ label: c.label, stroke: ink(c.color), points: { show: false }, ...(c.dashed ? { width: 1, dash: [4, 8] } : { width: 1.6 }) }));
   const options: uPlot.Options = {
     title: `${title} [${unit}]`,
     width: place.clientWidth,
@@ -104,8 +104,8 @@ async function show(): Promise<void> {
   const columns = new Columns(scene, floats(bytes(frames)));
   const [time] = columns.of("time");
   const seek = (at: number): void => frame.contentWindow?.postMessage({ seek: at }, "*"); // a page from disk has no origin
-  for (const [title, unit, name, other] of VECTORS) {
-    const curves = [...(other ? vector(columns, other, true) : []), ...vector(columns, name, false)];
+  for (const [title, unit, name, other, suffix] of VECTORS) {
+    const curves = [...vector(columns, name), ...(other ? vector(columns, other, suffix) : [])];
     if (curves.some(({ values }) => values.some((value) => value !== 0))) plot(title, unit, time, curves, place, seek);
   }
   plot("Thrusts of the rotors", "N", time, thrusts(columns), place, seek);

@@ -33,9 +33,9 @@ const SCENE = {
   ],
 } as unknown as FlightScene;
 
-function refusal(text: string, ghosts = true): string {
+function refusal(text: string): string {
   try {
-    checkScript(readScript(text), SCENE, ghosts);
+    checkScript(readScript(text), SCENE);
   } catch (error) {
     if (error instanceof ScriptError) return error.message;
     throw error;
@@ -81,13 +81,9 @@ test("a push may be as strong as the hand that a step before has set", () => {
   assert.equal(refusal(step("settings.person.max_force = 9\npush = { force = [8, 0, 0], duration = 1 }")), "");
 });
 
-test("a ghost is refused where none can fly along", () => {
-  assert.match(refusal(step('ghost = "keep"'), false), /^step 2: ghost = "keep": must be left out here/);
-});
-
 test("a saved flight follows no script", () => {
   const replay = { ...SCENE, replay: { start: 0, end: 1, speed: 1, ending: null } } as FlightScene;
-  assert.throws(() => checkScript(readScript(GOOD), replay, true), /^Error: a saved flight follows no script/);
+  assert.throws(() => checkScript(readScript(GOOD), replay), /^Error: a saved flight follows no script/);
 });
 
 test("a script is told from a mission by its steps", () => {

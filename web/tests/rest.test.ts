@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { History } from "../src/ui/history.ts";
+import { FrameRate } from "../src/view/graphics.ts";
 import { isStill } from "../src/view/rest.ts";
 import { Frame, Layout } from "../src/wire/frames.ts";
 import type { FrameFieldName } from "../src/wire/messages.generated.ts";
@@ -19,6 +20,14 @@ test("a vehicle stands still to the eye unless it moves, is held or pushed, or i
   for (const other of [frame(2, 0.02), frame(2, 0, 0.1), frame(2, 0, 0, 1), frame(2, 0, 0, 0, 1)]) {
     assert.ok(!isStill(other, frame(1)));
   }
+});
+
+test("a page was at rest in a second only if no picture of it was due", () => {
+  const rate = new FrameRate();
+  for (const now of [1000, 1500, 2000]) rate.tick(now, true, true);
+  assert.equal(rate.rate, null);
+  for (let now = 2050; now <= 3000; now += 50) rate.tick(now, now % 100 === 0, now % 100 !== 0);
+  assert.equal(rate.rate, 10);
 });
 
 test("an hour is kept in the memory of a quarter of an hour, the last minutes of it whole", () => {

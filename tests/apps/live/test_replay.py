@@ -123,13 +123,15 @@ def test_what_a_pilot_by_hand_shows_is_shown(flight):
     assert last["wind"] == [2.0] * 3
 
 
-def test_phases_by_the_clock_are_those_of_the_mission(flight):
+@pytest.mark.parametrize(("rotors", "before"), [("always", "hold"), ("flight", "idle")])
+def test_phases_by_the_clock_are_those_of_the_mission(flight, rotors, before):
     clock = {"lift_start": 2.0, "lift_duration": 3.0, "height": 1.0, "land_start": 10.0, "land_duration": 2.0}
+    clock["rotors"] = rotors
     lifted = dataclasses.replace(flight, mission={**flight.mission, "phases": clock})
     scene, frames = scene_and_frames(lifted)
     found = read_frames(tuple(map(tuple, scene["fields"])), frames.tobytes())
     names = {t: scene["phases"][int(found["phase"][np.searchsorted(found["time"][:, 0], t), 0])] for t in (1, 3, 6, 12)}
-    assert names == {1: "guided", 3: "lift", 6: "guided", 12: "land"}
+    assert names == {1: before, 3: "lift", 6: "guided", 12: "land"}
 
 
 def test_samples_that_are_no_numbers_are_left_out(flight):

@@ -6,6 +6,7 @@ import struct
 import numpy as np
 import pytest
 from colour_contrast import contrast
+from IPython.core.formatters import DisplayFormatter
 from matplotlib.colors import to_rgb
 from PIL import Image
 
@@ -58,6 +59,13 @@ def test_a_slide_fills_a_screen_and_a_figure_with_many_rows_is_a_larger_slide(fl
     assert many.style.dots(many.get_figwidth()) * many.get_figwidth() == pytest.approx(1920.0)
     data = save(few, tmp_path / "slide.png").read_bytes()
     assert struct.unpack(">II", data[16:24]) == (1920, 1080)
+
+
+def test_a_notebook_shows_a_figure_with_the_dots_of_a_file_and_as_large_as_in_print(flight, tmp_path):
+    figure = drawn(flight, "interaction", "ieee")
+    shown, look = DisplayFormatter().format(figure)
+    assert shown["image/png"] == save(figure, tmp_path / "figure.png").read_bytes()
+    assert look["image/png"]["width"] == 336  # pixels of a page, 96 in each of 3.5 inches
 
 
 def test_the_dark_style_is_drawn_on_dark_paper_and_nothing_is_black_or_white(flight, tmp_path):

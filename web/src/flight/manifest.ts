@@ -113,7 +113,7 @@ export interface PageManifest {
   ending: Span[]; // what `ending` is a function of, and the time
   frame: [field: string, count: number][]; // what `frame` returns
   challenge: ChallengeManifest;
-  phase_times: number[]; // s
+  phase_times: number[]; // s, and the phase before the lift
   touch_rule: number[];
   ramp: number; // s
   request_time: number; // s

@@ -146,8 +146,8 @@ export class Dock {
   }
 }
 
-/** A button of a request that would be refused is pale and described by the reason; it can be pressed all the same. */
+/** A button of a request that would be refused is grey and described by the reason; it can be pressed all the same. */
 function mark(element: HTMLButtonElement, reason: string, title: string): void {
-  element.classList.toggle("refused", reason !== "");
+  element.setAttribute("aria-disabled", String(reason !== ""));
   if (element.title !== (reason || title)) element.title = reason || title;
 }

@@ -24,7 +24,7 @@ const FINGERS_PLOTS: Line = [
 ];
 const FINGERS_REWIND: Line = ["Rewind, below the picture", "fly again to the chosen moment, and try again from there"];
 const KEYS: Line[] = [
-  ["Arrows or W A S D", "push level; the force is set under Settings \u2192 hand"],
+  ["Arrows or W A S D", "push level; the force is set under Settings \u2192 Hand"],
   ["E, Q or Page Up, Page Down", "push up, down"],
   ["Gamepad", "left stick: level; right stick: up and down"],
   ["R \u00b7 Ctrl+Z", "fly again to the chosen moment, and try again from there \u00b7 undo a setting"],

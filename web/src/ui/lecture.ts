@@ -132,7 +132,7 @@ export class Lecture {
   }
 
   private begin(name: string, script: LectureScript): void {
-    checkScript(script, this.scene, this.page.compare !== undefined);
+    checkScript(script, this.scene);
     [this.script, this.at] = [{ title: name, ...script }, -1];
     this.turn(1);
     if (!this.on) this.toggle();

@@ -75,17 +75,16 @@ export function readScript(text: string): LectureScript {
   return { ...script, steps };
 }
 
-/** Refuses a script that a flight cannot follow; `ghosts`: whether one can fly along. */
-export function checkScript({ steps }: LectureScript, scene: FlightScene, ghosts: boolean): void {
+/** Refuses a script that a flight cannot follow. */
+export function checkScript({ steps }: LectureScript, scene: FlightScene): void {
   if (scene.replay) throw new ScriptError("a saved flight follows no script: open it in a page that flies");
   let most = scene.spring.max_force;
-  steps.forEach(({ settings, push, ghost }, i) => {
+  steps.forEach(({ settings, push }, i) => {
     const where = `step ${i + 1}: `;
     for (const [key, value] of Object.entries(settings)) checkSetting(`${where}settings.${key}`, key, value, scene);
     most = Number(settings[MAX_FORCE] ?? most);
     const strongest = `${most} N at most, which ${MAX_FORCE} sets`;
     if (push && size(push.force) > most) refuse(`${where}push.force`, push.force, strongest);
-    if (ghost && !ghosts) refuse(`${where}ghost`, ghost, "left out here: only a page without a server flies two");
   });
 }
 

@@ -12,7 +12,7 @@ const LOOKS: Record<Phase, PhaseLook> = {
   preparing: { text: "preparing", kind: "off", tint: "rgba(0, 0, 0, 0)" },
   idle: { text: "on the ground", kind: "off", tint: "rgba(93, 104, 117, 0.10)" },
   lift: { text: "lifting", kind: "moving", tint: "rgba(240, 180, 41, 0.16)" },
-  guided: { text: "guided", kind: "active", tint: "rgba(31, 157, 118, 0.13)" },
+  guided: { text: "follows pushes", kind: "active", tint: "rgba(31, 157, 118, 0.13)" },
   land: { text: "landing", kind: "moving", tint: "rgba(240, 180, 41, 0.16)" },
   hold: { text: "holding", kind: "calm", tint: "rgba(47, 111, 176, 0.12)" },
   contact: { text: "touching a wall", kind: "moving", tint: "rgba(240, 180, 41, 0.16)" },
@@ -31,8 +31,9 @@ export function isAirborne(phase: Phase): boolean {
   return AIRBORNE.includes(phase);
 }
 
-export function phaseTint(phase: Phase): string {
-  return LOOKS[phase].tint;
+/** A phase in words, and the colour of its stretch of time. */
+export function phaseLook(phase: Phase): { text: string; tint: string } {
+  return LOOKS[phase];
 }
 
 /** What the badge says: a fault before all else. */

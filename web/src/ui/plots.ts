@@ -10,7 +10,7 @@ import type { ColorName } from "./colors.ts";
 import { choice } from "./dom.ts";
 import { GHOST, type History } from "./history.ts";
 import type { Marks } from "./marks.ts";
-import { phaseTint } from "./phases.ts";
+import { phaseLook } from "./phases.ts";
 import { band, type Curve, key, level, Plot, type PlotOptions } from "./plot.ts";
 import type { TimeWindow } from "./time_window.ts";
 
@@ -139,8 +139,8 @@ export class Plots {
     const curves = along((label) => ({ label }));
     const under = (plot: uPlot): void => {
       for (const { from, to, phase } of this.marks.phases) {
-        const name = this.scene.phases[phase];
-        band(plot, from, to, phaseTint(name), name);
+        const { tint, text } = phaseLook(this.scene.phases[phase]);
+        band(plot, from, to, tint, text);
       }
     };
     const look = { title: "Disturbance, phase", unit: "N", curves, least: 1, under, rows: 3 };

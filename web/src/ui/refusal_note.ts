@@ -1,6 +1,6 @@
 // Above the buttons: why one would be refused, while a person points at it, and after it was pressed all the same.
 
-import type { StatusRefusals } from "../wire/messages.generated.ts";
+import type { StatusMessage } from "../wire/messages.generated.ts";
 import { el } from "./dom.ts";
 
 const SHOWN_FOR = 10_000; // ms after a request, at most
@@ -45,9 +45,10 @@ export class RefusalNote {
     this.show(reason, true);
   }
 
-  /** Takes the reasons as they are now. */
-  status({ refusals }: { refusals: Pick<StatusRefusals, Request> }): void {
+  /** Takes the reasons as they are now; one that was asked for leaves room for what is said at a hand. */
+  status({ refusals, holder }: StatusMessage): void {
     this.refusals = refusals;
+    if (holder === "you") this.until = 0;
     this.update();
   }
 

@@ -16,7 +16,7 @@ export class StatusBar {
   constructor(replay: boolean, alone: boolean) {
     const shared = alone ? [] : ["held by", "viewers"];
     const live = replay ? ["time"] : ["time", "speed", "latency", ...shared, "recorded"];
-    const meters = [...live, "pictures"].map((name) => {
+    const meters = [...live, "frame rate"].map((name) => {
       const value = el("dd", {}, "\u2013");
       this.values.set(name, value);
       return el("div", { class: name.replace(" ", "-") }, el("dt", {}, name), value);
@@ -44,10 +44,10 @@ export class StatusBar {
   }
 
   /** A few times a second: what changes with every picture. */
-  update(frame: Frame | null, latency: number | null, pictures: number): void {
+  update(frame: Frame | null, latency: number | null, rate: number | null): void {
     if (frame) this.set("time", `${frame.scalar("time").toFixed(1)} s`);
     this.set("latency", latency === null ? "\u2013" : `${latency.toFixed(0)} ms`);
-    this.set("pictures", `${pictures.toFixed(0)}/s`);
+    this.set("frame rate", rate === null ? "at rest" : `${rate.toFixed(0)}/s`);
   }
 
   disconnected(): void {

@@ -3,7 +3,7 @@
 import type { Phase } from "../wire/messages.generated.ts";
 import { el } from "./dom.ts";
 import type { Mark, Marks } from "./marks.ts";
-import { phaseTint } from "./phases.ts";
+import { phaseLook } from "./phases.ts";
 import type { Stretch } from "./time_window.ts";
 
 const SNAP = 14; // pixels, within which a finger that meets the line chooses a mark
@@ -67,7 +67,7 @@ export class Timeline {
     phases.forEach(({ from, to, phase }, i) => {
       const piece = (this.phases.children[i] ?? this.phases.appendChild(el("i", {}))) as HTMLElement;
       place(piece, from, to);
-      piece.style.backgroundColor = phaseTint(names[phase]);
+      piece.style.backgroundColor = phaseLook(names[phase]).tint;
     });
   }
 

@@ -18,9 +18,10 @@ export function suitableGraphics(): Graphics {
 
 /** Measures the pictures drawn per second, and detects a machine that is too slow. */
 export class FrameRate {
-  rate = 0; // pictures/s over the last second
+  rate: number | null = 0; // pictures/s over the last second; null where it was at rest, and drew few on purpose
   private drawn = 0;
   private count = 0;
+  private busy = false; // at any picture of this second
   private since = 0;
   private slow = 0; // s
 
@@ -28,15 +29,17 @@ export class FrameRate {
   tick(now: number, drawn: boolean, resting: boolean): boolean {
     this.count += 1;
     if (drawn) this.drawn += 1;
+    this.busy ||= !resting; // between two frames of a slow flight it rests, too
     const passed = (now - this.since) / 1000;
     if (passed < 1) return false;
     if (passed < 2) {
       // a longer pause is a hidden page, not a slow one
-      this.rate = this.drawn / passed;
+      this.rate = this.busy ? this.drawn / passed : null;
       this.slow = this.count / passed < SLOW && !resting ? this.slow + passed : 0;
     }
     this.since = now;
     this.count = this.drawn = 0;
+    this.busy = false;
     return this.slow >= PATIENCE;
   }
 }

@@ -8,7 +8,7 @@ import type { FlightScene, Vector } from "../wire/messages.generated.ts";
 import { Arrow } from "./arrow.ts";
 import { ContactMark } from "./contact.ts";
 import { HandMarker } from "./hand.ts";
-import { Label } from "./labels.ts";
+import type { Labels } from "./labels.ts";
 import { Mark } from "./mark.ts";
 import { palette } from "./palette.ts";
 import { Person } from "./person.ts";
@@ -25,8 +25,6 @@ export type Overlays = Record<Overlay, boolean>;
 /** The hand of this page as it is drawn: none, over the beam, or pulling. */
 export type HandView =
   { kind: "none" } | { kind: "offer"; point: Vector } | { kind: "pull"; point: Vector; target: Vector };
-
-export type Labels = Record<"push" | "moment" | "wind" | "refusal" | "ending" | "contact", Label>;
 
 /** A sentence at a point of the body: why what a person does there has no effect. */
 export interface Remark {

@@ -38,7 +38,7 @@ from tandemlift.simulation.recorded_flight import EMPTY_FLIGHT, HAND, HAND_RELEA
 from tandemlift.simulation.stepping import GUIDANCE_MEMORY
 
 ENDING_PARTS = (("limits",), *[("flight_state", name) for name in ("crash", "ended", "state", "impulse")])
-LEVEL, TIMES, RULE = Quat(1.0, 0.0, 0.0, 0.0), frames.PhaseTimes(0.0, 0.0, 0.0), TouchRule(0.0, 0.0, 0.0)
+LEVEL, TIMES, RULE = Quat(1.0, 0.0, 0.0, 0.0), frames.PhaseTimes(*4 * [0.0]), TouchRule(0.0, 0.0, 0.0)
 
 
 def page_functions(plan: FlightPlan) -> Sequence[ValuesFunction]:

@@ -92,12 +92,12 @@ def components(ax: Axes, time: Array, values: Array, **look: Any) -> list[Line2D
     return [line(ax, time, values[:, i], **COMPONENTS[i], **look) for i in range(3)]
 
 
-def time_axis(ax: Axes, flight: Flight, label: bool = True) -> None:
-    """Span the flown time [s], or one log interval if there is but one sample."""
-    last = float(flight.time[-1]) if len(flight.time) else 0.0
+def time_axis(ax: Axes, flight: Flight, label: bool = True, until: float | None = None) -> None:
+    """Span the time until `until` [s], else the flown time, or one log interval if there is but one sample."""
+    last = until or (float(flight.time[-1]) if len(flight.time) else 0.0)
     last = last or float(flight.mission["mission"]["log_interval"])
     ax.set_xlim(-0.012 * last, last)  # the start stands off the frame, which would hide how it decays
-    ax.xaxis.set_major_locator(MaxNLocator(nbins=7, steps=[1, 1.5, 2, 5, 10]))
+    ax.xaxis.set_major_locator(MaxNLocator(nbins=7, steps=[1, 1.5, 2, 5, 10] if last > 2.0 else [1, 2, 5, 10]))
     if label:
         ax.set_xlabel("time (s)")
     else:

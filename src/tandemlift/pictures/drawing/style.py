@@ -7,6 +7,7 @@ colours, so that one drawing serves all palettes.
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable
 from functools import wraps
 from pathlib import Path
@@ -25,6 +26,7 @@ from tandemlift.pictures.drawing.figure import FigureStyle, Palette, current_sty
 
 P = ParamSpec("P")
 TEXT = 8.5  # pt: the size of text for which `points` are given
+CSS_DOTS = 96.0  # pixels of a page in an inch
 
 (
     PAPER,
@@ -120,12 +122,20 @@ class StyledFigure(Figure):
 
     def __init__(self, width: float, height: float, layout: Literal["constrained"] | None = "constrained") -> None:
         self.style = current_style()
-        super().__init__(figsize=self.style.size(width, height), layout=layout)
+        size = self.style.size(width, height)
+        super().__init__(figsize=size, dpi=self.style.dots(size[0]), layout=layout)
 
     def get_layout_engine(self) -> LayoutEngine | None:
         """None once it is laid out: with another answer, saving would draw it once more for its layout."""
         engine = super().get_layout_engine()
         return None if isinstance(engine, PlaceHolderLayoutEngine) else engine
+
+    def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, bytes], dict[str, dict[str, int]]]:
+        """The figure in a notebook: with the dots of a file, as large as in print, without pyplot."""
+        picture = io.BytesIO()
+        self.savefig(picture)
+        width, height = (round(CSS_DOTS * side) for side in self.get_size_inches())
+        return {"image/png": picture.getvalue()}, {"image/png": {"width": width, "height": height}}
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw it, its colours from the style's palette."""

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 
 from tandemlift.core.phases import GUIDED
 from tandemlift.core.types import Array
@@ -17,7 +18,7 @@ from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.figure import Caption, with_any_of
 from tandemlift.pictures.drawing.overlay import over_time
 from tandemlift.pictures.drawing.panels import components, fit, line, shade, time_axis
-from tandemlift.pictures.drawing.style import COMPONENTS, GREY, INK, column_figure, journal
+from tandemlift.pictures.drawing.style import COMPONENTS, GREY, INK, PALE, column_figure, journal
 
 CAPTION = Caption(
     "Disturbance",
@@ -47,7 +48,7 @@ def _condition(ax: Axes, flight: Flight, error: Array) -> None:
     ax.axhline(1.0, color=INK, lw=0.7, ls=(0, (5, 3)))
     fit(ax, np.zeros(1), np.ones(1), error, least=1.0)
     ax.set_ylabel("$|\\delta-\\hat{\\delta}|/\\lambda_2$")
-    ax.legend(loc="upper right", ncols=2, columnspacing=1.2)
+    ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, columnspacing=1.2)
 
 
 @journal
@@ -58,18 +59,20 @@ def draw(flight: Flight) -> Figure:
     figure = column_figure(1.35 * rows + 0.3)
     axes = figure.subplots(rows, 1, squeeze=False)[:, 0]
     panels = (("disturbance_force", "$\\hat{d}$ (N)", 0.2), ("disturbance_moment", "$\\hat{\\tau}$ (N m)", 0.02))
-    handles: list[Any] = []
+    handles, names = list[Any](), ["$x$, roll", "$y$, pitch", "$z$, yaw"]
     for ax, (channel, label, least) in zip(axes, panels, strict=False):
         handles = components(ax, flight.time, flight[channel])
         fit(ax, np.zeros(1), flight[channel], least=least)
         ax.set_ylabel(label)
     if error is not None:
         _condition(axes[2], flight, error)
+    guided = flight["phase"] == GUIDED if "phase" in flight else np.zeros(len(flight.time), dtype=bool)
     for ax in axes:
         ax.axhline(0.0, color=GREY, lw=0.5, zorder=0)
-        if "phase" in flight:
-            shade(ax, flight.time, flight["phase"] == GUIDED)
+        shade(ax, flight.time, guided)
         time_axis(ax, flight, label=ax is axes[-1])
     figure.align_ylabels(axes)
-    figure.legend(handles, ["$x$, roll", "$y$, pitch", "$z$, yaw"], loc="outside upper center", ncols=3)
+    if guided.any():
+        handles, names = [*handles, Patch(facecolor=PALE)], [*names, "guided"]
+    figure.legend(handles, names, loc="outside upper center", ncols=4, columnspacing=1.2)
     return figure

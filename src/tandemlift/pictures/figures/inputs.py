@@ -56,13 +56,12 @@ def draw(flight: Flight) -> Figure:
         time_axis(row[-1], flight, label=i == 3)
         if disturbed:
             _panel(row[0], flight, i, early, early)
-            time_axis(row[0], flight, label=i == 3)
-            row[0].set_xlim(-0.02 * START, START)
+            time_axis(row[0], flight, label=i == 3, until=START)
         row[0].set_ylabel(LABELS[i])
     hover = [ax.axhline(weight, color=INK, lw=0.7, ls=(0, (5, 3)), zorder=0) for ax in axes[0]]
     axes[0, -1].legend(hover[-1:], [f"weight, {weight:.4g} N"], loc="lower right", bbox_to_anchor=(1.0, 1.0))
     if disturbed:
-        axes[0, 0].set_title("first second")
-        axes[0, 1].set_title("whole flight, scaled to what follows")
+        axes[0, 0].set_title("first second", loc="left")
+        axes[0, 1].set_title("whole flight (scale: after the first second)", loc="left")
     figure.align_ylabels(axes[:, 0])
     return figure

@@ -115,9 +115,9 @@ def _errors(ax: Axes, flight: Flight, column: FigureColumn) -> None:
     ax.axhline(0.0, color=GREY, lw=0.4, zorder=0)
     ax.set_ylim(-1.1, 1.1)
     ax.set_yticks([-1, 0, 1])
-    ax.set_ylabel("error / max|error|", labelpad=1)
+    ax.set_ylabel("error / largest", labelpad=1)
     above = {"loc": "lower center", "bbox_to_anchor": (0.46, 1.0), "borderaxespad": 0.0}
-    ax.legend(ncols=3, fontsize=points(7), handlelength=1.5, handletextpad=0.4, columnspacing=0.7, **above)
+    ax.legend(ncols=3, fontsize=points(6.5), handlelength=1.3, handletextpad=0.3, columnspacing=0.6, **above)
     _mark_findings(ax, flight)
     time_axis(ax, flight)
 

@@ -41,7 +41,7 @@ def page(browser, live):
 
     live.wait_status(lambda s: s["phase"] in ("guided", "hold"), "hover")
     one = opened(browser, live.address)
-    until(lambda: one.text_content("#mode") in ("guided", "holding"), "a status on the page")
+    until(lambda: one.text_content("#mode") in ("follows pushes", "holding"), "a status on the page")
     yield one
     assert one.wrong == []
     one.context.close()

@@ -25,7 +25,7 @@ def test_a_gamepad_pushes_beyond_its_dead_zone_and_lets_go_when_it_is_unplugged(
     live.wait_status(lambda s: s["phase"] in ("guided", "hold"), "hover")
     live.wait(rests, "rest")
     page = opened(browser, live.address, lambda one: one.add_init_script(GAMEPAD))
-    until(lambda: page.text_content("#mode") in ("guided", "holding"), "a status on the page")
+    until(lambda: page.text_content("#mode") in ("follows pushes", "holding"), "a status on the page")
     page.get_by_role("button", name="Settings").click()
     page.get_by_text("world axes", exact=True).click()
     page.locator("#surface canvas").hover()

@@ -27,7 +27,7 @@ ALL_COME = "() => { const all = window.late; window.late = null; all.forEach((on
 def late(browser, live):
     live.wait_status(lambda s: s["phase"] in ("guided", "hold"), "hover")
     one = opened(browser, live.address, lambda page: page.add_init_script(f"({LATE})()"))
-    until(lambda: one.text_content("#mode") in ("guided", "holding"), "a status on the page")
+    until(lambda: one.text_content("#mode") in ("follows pushes", "holding"), "a status on the page")
     yield one
     assert one.wrong == []
     one.context.close()

@@ -39,7 +39,7 @@ def test_on_a_phone_the_hand_moves_level_and_a_run_that_is_not_ranked_stands_sti
     page.get_by_role("button", name="Challenge").tap()
     assert plane(page) == "level"
     assert "held by" not in page.inner_text("#meters")
-    until(lambda: page.text_content("#mode") == "guided", "a flight at its height")
+    until(lambda: page.text_content("#mode") == "follows pushes", "a flight at its height")
     page.keyboard.down("e")  # over the walls
     until(lambda: "Not ranked: left the corridor" in page.inner_text("#challenge"), "the end of the run")
     page.keyboard.up("e")

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tandemlift.core.algebra import Number, absolute, maximum, where
-from tandemlift.core.phases import GUIDED, LAND, LIFT
+from tandemlift.core.phases import GUIDED, HOLD, IDLE, LAND, LIFT
 from tandemlift.core.types import Array, is_value, leaves
 from tandemlift.core.vector import Quat, Vec3, cross, dot
 from tandemlift.simulation.results import channels_of
@@ -139,18 +139,22 @@ def components_of(channel: Array) -> Components:
 
 
 class PhaseTimes(NamedTuple):
-    """The times at which a scheduled flight begins and ends its lift, and begins to land [s]."""
+    """The times at which a scheduled flight begins and ends its lift, and begins to land [s]; its phase `before`."""
 
     lift_start: Number
     lift_end: Number
     land_start: Number
+    before: Number
 
 
 def phase_times(phases: Mapping[str, Any]) -> PhaseTimes:
     """The times of a mission; `phases`: that table of it."""
     start, land = phases["lift_start"], phases.get("land_start")
-    end = start + phases["lift_duration"] if phases["height"] != 0.0 else start
-    return PhaseTimes(start, end, AGES if land is None else land)
+    if phases["height"] == 0.0:
+        end, before = start, GUIDED
+    else:
+        end, before = start + phases["lift_duration"], IDLE if phases.get("rotors") == "flight" else HOLD
+    return PhaseTimes(start, end, AGES if land is None else land, before)
 
 
 def field_values(channels: Mapping[str, Components], time: Number | Array, phases: PhaseTimes) -> dict[str, Components]:
@@ -230,5 +234,5 @@ def _numbers(value: Any) -> Iterator[Any]:
 
 def _phase_by_clock(time: Number | Array, phases: PhaseTimes) -> Number | Array:
     """The phase of a scheduled flight."""
-    lifting = where(time >= phases.lift_start, where(time < phases.lift_end, LIFT, GUIDED), GUIDED)
+    lifting = where(time >= phases.lift_start, where(time < phases.lift_end, LIFT, GUIDED), phases.before)
     return where(time >= phases.land_start, LAND, lifting)
