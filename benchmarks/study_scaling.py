@@ -32,9 +32,9 @@ import tandemlift as tl
 from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution.chunk import chunk_of
+from tandemlift.analysis.studies.execution.chunk_scheduling import fly_study
 from tandemlift.analysis.studies.execution.columns import write_columns
 from tandemlift.analysis.studies.execution.flying import fly_chunk
-from tandemlift.analysis.studies.execution.running import fly_study
 from tandemlift.analysis.studies.execution.store import ChunkFiles, StudyFolder, open_folder
 from tandemlift.core.errors import InputError
 

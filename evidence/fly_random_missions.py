@@ -27,7 +27,7 @@ from random_missions.generate import UNPUSHED, shortened
 from random_missions.judged import BAD, Families, Judged
 
 import tandemlift as tl
-from tandemlift.analysis.studies.execution.running import run_chunks
+from tandemlift.analysis.studies.execution.chunk_scheduling import run_chunks
 from tandemlift.analysis.studies.execution.store import ChunkFiles
 from tandemlift.analysis.studies.execution.workers import ExecutorWorkers
 

@@ -15,7 +15,7 @@ import numpy as np
 from random_missions.values import varied
 from tandemlift.core.errors import FlightWarning, InputError
 from tandemlift.missions import Mission, load_mission, tables_of
-from tandemlift.missions.keys import Key, is_of_the_package, plain, sections
+from tandemlift.missions.key_descriptions import Key, is_of_the_package, plain, sections
 from tandemlift.missions.loading import built_in
 from tandemlift.parts.controllers import CONTROLLERS
 

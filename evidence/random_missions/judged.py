@@ -155,7 +155,7 @@ def _complaint(outcome: str, kind: str, verdict: Any) -> str:
 
 
 class Families:
-    """Families of missions as chunks of work for `tandemlift.analysis.studies.execution.running.run_chunks`.
+    """Families of missions as chunks of work for `tandemlift.analysis.studies.execution.chunk_scheduling.run_chunks`.
 
     Args:
         seed: of all missions.

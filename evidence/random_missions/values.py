@@ -6,7 +6,7 @@ from typing import Any, get_args
 
 import numpy as np
 
-from tandemlift.missions.keys import Key, bounds
+from tandemlift.missions.key_descriptions import Key, bounds
 
 SHORTEST, LONGEST = 8.0, 20.0  # s
 STEPS = (0.0005, 0.001, 0.002, 0.004, 0.005, 0.01)  # s

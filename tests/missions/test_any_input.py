@@ -18,7 +18,7 @@ import tandemlift as tl
 from tandemlift.core.files import parse_setting
 from tandemlift.core.types import flat
 from tandemlift.missions import MissionTemplate, check, load_mission
-from tandemlift.missions.keys import allowed
+from tandemlift.missions.key_descriptions import allowed
 from tandemlift.simulation.preparation.assemble import assemble
 
 EDGES = [0.0, -0.0, 5e-324, 1e-300, 1e-155, 1e-15, 0.02, 1.0, 90.0, 1e15, 1e155, 1e300, 1.7976931348623157e308]

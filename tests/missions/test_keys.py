@@ -18,7 +18,7 @@ import tandemlift as tl
 from tandemlift.apps.cli.main import cli
 from tandemlift.missions import Mission, check, load_mission, tables_of
 from tandemlift.missions.changes import value_at
-from tandemlift.missions.keys import is_of_the_package, plain, sections
+from tandemlift.missions.key_descriptions import is_of_the_package, plain, sections
 from tandemlift.missions.reference import explained, index, plain_name, template_text
 from tandemlift.parts.contact.standing import standing_on
 from tandemlift.parts.mechanics.bodies import Body

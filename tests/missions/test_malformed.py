@@ -7,7 +7,7 @@ from mission_schema import EVERYTHING
 import tandemlift as tl
 from tandemlift.missions import Mission, built_in, load_mission, tables_of
 from tandemlift.missions.changes import value_at
-from tandemlift.missions.keys import table_in
+from tandemlift.missions.key_descriptions import table_in
 from tandemlift.missions.refusals import keys_of
 
 JARGON = (

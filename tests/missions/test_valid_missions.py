@@ -12,7 +12,7 @@ from mission_schema import EVERYTHING, SCHEMA
 import tandemlift as tl
 from tandemlift.missions import Mission, built_in, format_toml, load_mission, merge, mission_from_text, tables_of
 from tandemlift.missions.changes import value_at
-from tandemlift.missions.keys import allowed
+from tandemlift.missions.key_descriptions import allowed
 
 BUILT_IN = [
     *("crazyflie-stick", "doorway", "flight-ready", "four", "gusts", "heavy-payload", "hover", "iris"),

@@ -1,7 +1,7 @@
 """Every kind of finding has a name, a meaning and a remedy of its own, and every key that a kind names exists."""
 
 from tandemlift.core.findings import FINDING_NAMES, KINDS
-from tandemlift.missions.keys import sections
+from tandemlift.missions.key_descriptions import sections
 
 
 def test_each_name_has_a_kind_of_its_own():

@@ -14,12 +14,12 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.law import law
 from tandemlift.core.types import GRAVITY
 from tandemlift.flight.channels import CHANNELS
-from tandemlift.parts.mechanics.loads import PerfectReadings
+from tandemlift.parts.mechanics.joint_loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.health import PerSensor
 from tandemlift.parts.sensors.readings import ImuChannels, ImuReading, MotionChannels, MotionReading, Readings
-from tandemlift.parts.sensors.sensor_list import DEVICES, SENSORS, additional, sensors_on
 from tandemlift.parts.sensors.sensor_registry import register_sensor
+from tandemlift.parts.sensors.vehicle_sensors import DEVICES, SENSORS, additional, sensors_on
 
 SEA_LEVEL, DENSITY = 101325.0, 1.225  # Pa, kg/m³
 STEP = 1e-3

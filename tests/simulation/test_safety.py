@@ -11,7 +11,7 @@ import tandemlift as tl
 from tandemlift.core.faults import ALARM_TEXTS
 from tandemlift.core.phases import PHASE_NAMES
 from tandemlift.core.vector import ZERO, Absent
-from tandemlift.missions.keys import sections
+from tandemlift.missions.key_descriptions import sections
 from tandemlift.parts.estimation.disturbance_observer import NONE
 from tandemlift.parts.guidance.guidance import PilotInput, checked_input, guide
 from tandemlift.parts.interaction.requests import NO_REQUEST, UNKNOWN_STATUS

@@ -4,7 +4,7 @@ import copy
 import functools
 
 from tandemlift.missions import Mission, load_mission, merge, tables_of
-from tandemlift.missions.keys import table_in
+from tandemlift.missions.key_descriptions import table_in
 from tandemlift.missions.refusals import keys_of
 from tandemlift.parts.controllers import CONTROLLERS
 

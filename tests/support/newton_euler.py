@@ -10,7 +10,7 @@ from law_values import flat
 from scipy.spatial.transform import Rotation
 
 from tandemlift.core.vector import ZERO, Quat, spread, vec3
-from tandemlift.parts.mechanics.loads import PerfectReadings
+from tandemlift.parts.mechanics.joint_loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.readings import ImuReading
 

@@ -20,7 +20,7 @@ from tandemlift.parts.estimation.navigation import (
     start_navigation,
 )
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, estimate, push_estimator, start_push
-from tandemlift.parts.mechanics.loads import PerfectReadings
+from tandemlift.parts.mechanics.joint_loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.noise_bias_drift import (
     AttitudeNoise,

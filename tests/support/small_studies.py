@@ -6,7 +6,7 @@ from pathlib import Path
 from tandemlift.analysis.studies.design.keys import columns_of
 from tandemlift.analysis.studies.design.plan import SEED
 from tandemlift.analysis.studies.design.study_files import load_plan
-from tandemlift.analysis.studies.execution.running import fly_study
+from tandemlift.analysis.studies.execution.chunk_scheduling import fly_study
 from tandemlift.analysis.studies.execution.store import open_folder
 from tandemlift.analysis.studies.table import load_study
 

@@ -7,7 +7,7 @@ import sys
 import pyarrow.parquet as pq
 
 from tandemlift.analysis.studies.design.study_files import load_plan
-from tandemlift.analysis.studies.execution.running import fly_study
+from tandemlift.analysis.studies.execution.chunk_scheduling import fly_study
 from tandemlift.analysis.studies.execution.store import open_folder
 
 TWELVE = {
@@ -24,7 +24,7 @@ PROGRAM = """
 import json, sys
 from pathlib import Path
 from tandemlift.analysis.studies.design.study_files import load_plan
-from tandemlift.analysis.studies.execution.running import fly_study
+from tandemlift.analysis.studies.execution.chunk_scheduling import fly_study
 from tandemlift.analysis.studies.execution.store import open_folder
 
 if __name__ == "__main__":

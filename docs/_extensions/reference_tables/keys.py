@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from tandemlift.core.errors import shown
-from tandemlift.missions.keys import EXTENDS, Key, Section, default_words, is_of_the_package, sections
+from tandemlift.missions.key_descriptions import EXTENDS, Key, Section, default_words, is_of_the_package, sections
 
 TABLE_HEAD = "| key | unit | default | meaning |\n|---|---|---|---|"
 

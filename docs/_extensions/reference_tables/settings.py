@@ -11,7 +11,7 @@ from reference_tables.markdown import table
 from tandemlift.core import keys
 from tandemlift.core.errors import shown
 from tandemlift.missions import Mission
-from tandemlift.missions.keys import allowed
+from tandemlift.missions.key_descriptions import allowed
 from tandemlift.parts.controllers import CascadeTable
 
 

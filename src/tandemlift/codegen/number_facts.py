@@ -14,7 +14,7 @@ from tandemlift.codegen.c.text import WIDTH, comment
 from tandemlift.core.keys import description_of
 from tandemlift.flight.channels import CHANNELS, Channel
 from tandemlift.missions import Mission
-from tandemlift.missions.schema import schema_of
+from tandemlift.missions.json_schema import schema_of
 
 STATE = {
     "position": Channel("m", "world", "position of the centre of mass"),

@@ -31,7 +31,7 @@ from tandemlift.engines.models.scene import Scene, floor_from, walls_from
 from tandemlift.parts.contact.feet import Floor, FootGrip
 from tandemlift.parts.contact.touches import Touches
 from tandemlift.parts.contact.walls import NearWalls, Walls
-from tandemlift.parts.mechanics.loads import PartLoads, PerfectReadings, perfect_readings, readings_with_load
+from tandemlift.parts.mechanics.joint_loads import PartLoads, PerfectReadings, perfect_readings, readings_with_load
 from tandemlift.parts.mechanics.parts import Acceleration
 from tandemlift.parts.mechanics.push import CentralPush, PointPush, Push, PushSamples
 from tandemlift.parts.mechanics.rigid_body import (

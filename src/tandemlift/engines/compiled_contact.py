@@ -15,7 +15,7 @@ from tandemlift.parts.contact.feet import Floor, FootGrip, feet_load, grips_afte
 from tandemlift.parts.contact.hull import Hull, HullContact, hull_contact, hull_loads
 from tandemlift.parts.contact.impulses import WallImpulses, impulses_of_walls
 from tandemlift.parts.contact.walls import Walls, near_wall_contact, near_wall_loads
-from tandemlift.parts.mechanics.loads import (
+from tandemlift.parts.mechanics.joint_loads import (
     PartLoad,
     PartLoads,
     PartsLayout,

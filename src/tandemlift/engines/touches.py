@@ -24,7 +24,7 @@ from tandemlift.parts.contact.touches import (
     wall_contacts,
 )
 from tandemlift.parts.contact.walls import NearWallContact, NearWalls, Walls, near_wall_contact
-from tandemlift.parts.mechanics.loads import PartsLayout
+from tandemlift.parts.mechanics.joint_loads import PartsLayout
 from tandemlift.parts.mechanics.rigid_body import State
 
 __all__ = ["ContactLog", "SurfaceTouches", "TouchRecord", "Touches", "touches_in"]

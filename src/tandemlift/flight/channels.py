@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tandemlift.core.phases import PHASE_NUMBERS, REASON_NUMBERS
-from tandemlift.parts.sensors.sensor_list import ADDITIONAL
+from tandemlift.parts.sensors.vehicle_sensors import ADDITIONAL
 
 
 class Channel(NamedTuple):

@@ -14,7 +14,7 @@ from pydantic.fields import FieldInfo
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.files import parts_of
 from tandemlift.core.keys import PerAxis, is_number
-from tandemlift.missions.keys import Model, table_in
+from tandemlift.missions.key_descriptions import Model, table_in
 from tandemlift.missions.mission import Mission
 from tandemlift.parts.controllers import CONTROLLERS
 from tandemlift.parts.interaction.admittance import with_feel

@@ -41,8 +41,8 @@ from tandemlift.parts.rotors.detection_table import DetectionTable
 from tandemlift.parts.rotors.hover import HoverFacts
 from tandemlift.parts.rotors.rotor_faults import FaultTable
 from tandemlift.parts.rotors.rotors import ActuatorsTable
-from tandemlift.parts.sensors.sensor_list import ADDITIONAL
 from tandemlift.parts.sensors.sensors_table import SensorFaultTable, SensorsTable
+from tandemlift.parts.sensors.vehicle_sensors import ADDITIONAL
 
 
 def _name(name: str) -> str:

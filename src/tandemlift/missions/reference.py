@@ -12,7 +12,7 @@ from typing import Any
 
 from tandemlift.core.errors import InputError, shown, written
 from tandemlift.core.files import parts_of
-from tandemlift.missions.keys import EXTENDS, PAPER, Key, Section, default_words, sections
+from tandemlift.missions.key_descriptions import EXTENDS, PAPER, Key, Section, default_words, sections
 
 NEAREST = 3
 

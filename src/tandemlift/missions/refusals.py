@@ -14,7 +14,7 @@ from tandemlift.core.errors import dotted, nearest, shown
 from tandemlift.core.files import QUANTITY
 from tandemlift.core.keys import description_of
 from tandemlift.missions.changes import MISSING, Place, value_at
-from tandemlift.missions.keys import Model, allowed, plain, table_in
+from tandemlift.missions.key_descriptions import Model, allowed, plain, table_in
 
 BY_ANNOTATION = (  # prefixes of the kinds of error for which the annotation has the allowed values
     *("missing", "axes", "float_", "int_", "bool_", "string_type", "finite_", "greater_", "less_"),

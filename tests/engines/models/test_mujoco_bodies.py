@@ -13,7 +13,7 @@ from tandemlift.engines.compiled import advance, start_plant, start_state
 from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.parts.contact.feet import floor, standing_height, start_foot_grip
 from tandemlift.parts.contact.walls import walls
-from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, resultant
+from tandemlift.parts.mechanics.joint_loads import PartLoad, PartLoads, resultant
 from tandemlift.parts.mechanics.push import CentralPush, PointPush, PushSamples
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion

@@ -28,7 +28,7 @@ from tandemlift.parts.contact.feet import (
     standing_height,
     start_foot_grip,
 )
-from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PartsLayout, resultant
+from tandemlift.parts.mechanics.joint_loads import PartLoad, PartLoads, PartsLayout, resultant
 from tandemlift.parts.mechanics.push import CentralPush
 from tandemlift.parts.mechanics.rigid_body import RigidBody, State, Wrench, rigid_body_motion
 from tandemlift.parts.mechanics.vehicle import Vehicle

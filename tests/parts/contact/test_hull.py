@@ -20,7 +20,7 @@ from tandemlift.engines.models.scene import feet_and_floor_from
 from tandemlift.missions import Mission
 from tandemlift.parts.contact.feet import may_touch
 from tandemlift.parts.contact.hull import hull, hull_contact, hull_loads, hull_may_touch, lowest_of_hull
-from tandemlift.parts.mechanics.loads import resultant
+from tandemlift.parts.mechanics.joint_loads import resultant
 from tandemlift.parts.mechanics.payload import Payload
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion

@@ -20,7 +20,7 @@ from tandemlift.parts.contact.clearance import clearance, least_clearance
 from tandemlift.parts.contact.polyhedron import spots_by_walls
 from tandemlift.parts.contact.walls import near_wall_loads
 from tandemlift.parts.mechanics.bodies import convex_hull
-from tandemlift.parts.mechanics.loads import resultant
+from tandemlift.parts.mechanics.joint_loads import resultant
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.wall_geometry import wall

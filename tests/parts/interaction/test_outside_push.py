@@ -10,7 +10,7 @@ import tandemlift as tl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.engines.mujoco import MuJoCoBody
 from tandemlift.engines.registry import ENGINES, Engine
-from tandemlift.flight.summary import summary_lines
+from tandemlift.flight.printed_summary import summary_lines
 from tandemlift.missions import changed
 
 DT, FIRST, LAST = 1e-3, 13_000, 15_000

@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import ZERO, Quat, Vec3
 from tandemlift.engines.models.links import parts_layout_from
-from tandemlift.parts.mechanics.loads import resultant
+from tandemlift.parts.mechanics.joint_loads import resultant
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import Payload

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 import tandemlift as tl
 from tandemlift.core.vector import Quat, Vec3, each, vec3
 from tandemlift.engines.models.links import parts_layout_from
-from tandemlift.parts.mechanics.loads import PartLoad, PerfectReadings, quadrotor_wrenches, readings_with_load
+from tandemlift.parts.mechanics.joint_loads import PartLoad, PerfectReadings, quadrotor_wrenches, readings_with_load
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 TWO = each(2)

@@ -8,7 +8,7 @@ from law_values import rebuilt
 
 import tandemlift as tl
 from tandemlift.core.vector import ZERO, Quat, spread
-from tandemlift.parts.mechanics.loads import PerfectReadings
+from tandemlift.parts.mechanics.joint_loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.readings import sense, start_sensing
 from tandemlift.parts.sensors.sensors_table import SensorsTable, first_samples

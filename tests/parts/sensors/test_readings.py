@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.core.vector import ZERO, Quat, Vec3, spread, vec3
 from tandemlift.missions import load_mission
-from tandemlift.parts.mechanics.loads import PerfectReadings
+from tandemlift.parts.mechanics.joint_loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.noise_bias_drift import SensorGrade
 from tandemlift.parts.sensors.readings import (

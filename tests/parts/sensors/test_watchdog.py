@@ -24,9 +24,9 @@ from tandemlift.parts.sensors.health import (
 )
 from tandemlift.parts.sensors.readings import ImuReading, MotionReading, Readings
 from tandemlift.parts.sensors.sensor_faults import SensorFaultState, apply_faults, sensor_faults_from
-from tandemlift.parts.sensors.sensor_list import SENSORS
 from tandemlift.parts.sensors.sensors_table import SensorFaultTable
 from tandemlift.parts.sensors.substitutes import PredictedReadings
+from tandemlift.parts.sensors.vehicle_sensors import SENSORS
 from tandemlift.parts.sensors.watchdog import (
     Watchdog,
     any_invalid,

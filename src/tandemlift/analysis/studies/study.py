@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.analysis.studies.design.study_files import load_plan
-from tandemlift.analysis.studies.execution.running import fly_study, part_from
+from tandemlift.analysis.studies.execution.chunk_scheduling import fly_study, part_from
 from tandemlift.analysis.studies.execution.store import StudyFolder, open_folder
 from tandemlift.analysis.studies.table import Study, load_study
 from tandemlift.core.errors import InputError

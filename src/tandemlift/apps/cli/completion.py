@@ -118,7 +118,7 @@ def formed_words() -> Words:
     from tandemlift.engines.registry import ENGINES
     from tandemlift.flight.metric_descriptions import METRIC_GROUPS
     from tandemlift.missions import built_in
-    from tandemlift.missions.keys import sections
+    from tandemlift.missions.key_descriptions import sections
     from tandemlift.parts.controllers import CONTROLLERS
 
     tables = list(sections())

@@ -134,7 +134,7 @@ def write_results(flight: Flight, folder: Path, began: float, recording: str | N
 
     A recording that the mission flies, given by its path, is among the files.
     """
-    from tandemlift.flight.summary import summary_lines
+    from tandemlift.flight.printed_summary import summary_lines
     from tandemlift.missions.recording import recording_bytes
 
     echo(*summary_lines(flight))

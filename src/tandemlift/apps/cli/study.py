@@ -20,7 +20,7 @@ from tandemlift.core.files import parse_setting, write_file
 if TYPE_CHECKING:
     from tandemlift.analysis.studies.comparison import MissionComparison
     from tandemlift.analysis.studies.design.plan import StudyPlan
-    from tandemlift.analysis.studies.execution.running import StudyPart
+    from tandemlift.analysis.studies.execution.chunk_scheduling import StudyPart
 
 
 @click.command()
@@ -86,7 +86,7 @@ def study(
     if metrics and no_report:
         raise InputError(f"--for {metrics[0]}: leave out --no-report, or there is no report to show it")
     from tandemlift.analysis.studies.design.study_files import load_plan
-    from tandemlift.analysis.studies.execution.running import part_from
+    from tandemlift.analysis.studies.execution.chunk_scheduling import part_from
     from tandemlift.analysis.studies.execution.store import check_names
 
     chosen, plan = part_from(part), load_plan(file, dict(map(parse_setting, settings)))
@@ -107,7 +107,7 @@ def _fly(
     plan: StudyPlan, out: str | None, part: StudyPart, threads: int | None, metrics: tuple[str, ...], *, report: bool
 ) -> None:
     """Fly a part; print the outcomes and the place of the table; write the report of a whole study."""
-    from tandemlift.analysis.studies.execution.running import fly_study
+    from tandemlift.analysis.studies.execution.chunk_scheduling import fly_study
     from tandemlift.analysis.studies.execution.store import open_folder
     from tandemlift.analysis.studies.table import load_study, outcome_lines
 

@@ -17,7 +17,7 @@ import numpy as np
 from tandemlift.core.errors import written
 from tandemlift.core.files import DATA, toml_tables
 from tandemlift.missions.changes import tables_of, value_at
-from tandemlift.missions.keys import sections
+from tandemlift.missions.key_descriptions import sections
 from tandemlift.missions.loading import load_mission
 from tandemlift.missions.mission import Mission
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable

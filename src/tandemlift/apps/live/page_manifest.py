@@ -29,7 +29,7 @@ from tandemlift.flight import corridor_score
 from tandemlift.flight.record import CAUSE_TEXT, ENDING_TEXT
 from tandemlift.missions import tables_of
 from tandemlift.missions.changes import Tables
-from tandemlift.missions.keys import allowed, bounds, plain
+from tandemlift.missions.key_descriptions import allowed, bounds, plain
 from tandemlift.parts.pilot.refusals import refusal_numbers
 from tandemlift.simulation.outcome import NOT_FINITE, EndingMoment, EndingNumbers, cause_of, ending_numbers, limit_of
 from tandemlift.simulation.parameter_changes import HAND_PARTS, LATER, NO_EFFECT, scheduled_change

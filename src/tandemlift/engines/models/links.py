@@ -15,7 +15,7 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array, number
 from tandemlift.core.vector import Mat3, each, quarters, spread, vec3
 from tandemlift.engines.models.scene import Scene
-from tandemlift.parts.mechanics.loads import PartsLayout
+from tandemlift.parts.mechanics.joint_loads import PartsLayout
 from tandemlift.parts.mechanics.vehicle import Vehicle, parallel_axis_term
 from tandemlift.parts.mechanics.vehicle_table import PlantTable
 

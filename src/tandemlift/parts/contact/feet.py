@@ -25,7 +25,7 @@ from tandemlift.core.types import GRAVITY, Condition, Number, PerQuadrotor, numb
 from tandemlift.core.vector import Absent, Mat3, Quarters, Vec3, apply, apply_transposed, cross, dot, spread, vec3
 from tandemlift.parts.contact.hull import MAX_ACCELERATION, MAX_ANGULAR_ACCELERATION, Ellipsoids, Hull
 from tandemlift.parts.contact.springs import friction_factor, mobility, softened_for_step, spring_damper
-from tandemlift.parts.mechanics.loads import PartLoad, PartsLayout, add_to_each
+from tandemlift.parts.mechanics.joint_loads import PartLoad, PartsLayout, add_to_each
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion, world_z_in_body
 from tandemlift.parts.mechanics.vehicle import Vehicle

@@ -39,7 +39,7 @@ from tandemlift.core.vector import (
     vec3,
 )
 from tandemlift.parts.contact.springs import friction_factor, mobility, softened_for_step, spring_damper
-from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PartsLayout, add_to_each, sum_over_set
+from tandemlift.parts.mechanics.joint_loads import PartLoad, PartLoads, PartsLayout, add_to_each, sum_over_set
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import world_z_in_body
 from tandemlift.parts.mechanics.vehicle import Vehicle

@@ -25,7 +25,7 @@ from tandemlift.core.vector import Absent, Vec3, apply, apply_transposed, cross,
 from tandemlift.parts.contact.polyhedron import Polyhedron, PolyhedronContact
 from tandemlift.parts.contact.spheres import ContactPair, RotorSpheres, WallContact, inverse_root
 from tandemlift.parts.contact.walls import Beam, BeamContact, NearWallContact, Walls, loads_of_walls
-from tandemlift.parts.mechanics.loads import (
+from tandemlift.parts.mechanics.joint_loads import (
     PartLoad,
     PartLoads,
     PartsLayout,

@@ -31,7 +31,7 @@ from tandemlift.parts.contact.beam_axis import (
 from tandemlift.parts.contact.spheres import WallContact, about_arm, sphere_contact
 from tandemlift.parts.contact.springs import Springs
 from tandemlift.parts.mechanics.bodies import ConvexHull
-from tandemlift.parts.mechanics.loads import PartLoad, PartsLayout, sum_over_set, translated
+from tandemlift.parts.mechanics.joint_loads import PartLoad, PartsLayout, sum_over_set, translated
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.wall_geometry import (

@@ -37,7 +37,7 @@ from tandemlift.parts.estimation.contact_map import BeamMatch, GuardMatch, Touch
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, external_forces
 from tandemlift.parts.estimation.wrench.observation import WholeForce, may_act_on, whole_force
 from tandemlift.parts.estimation.wrench.tare import ForceBand, SideForces, deviation, force_band_step, restarted
-from tandemlift.parts.mechanics.loads import add_to_each
+from tandemlift.parts.mechanics.joint_loads import add_to_each
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState
 from tandemlift.parts.sensors.readings import ImuReading
 

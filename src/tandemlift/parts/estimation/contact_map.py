@@ -15,7 +15,7 @@ from tandemlift.core.vector import ZERO, Absent, Vec3, apply, dot, each, total
 from tandemlift.parts.contact.beam_axis import BeamAxis, NearBeam, beam_axis, beam_point, point_by_edge
 from tandemlift.parts.contact.polyhedron import NearPolyhedron
 from tandemlift.parts.contact.walls import NearWalls
-from tandemlift.parts.mechanics.loads import translated
+from tandemlift.parts.mechanics.joint_loads import translated
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.wall_geometry import Wall, if_number, number_at, offset

@@ -27,7 +27,7 @@ from tandemlift.parts.estimation.push_estimate import (
 )
 from tandemlift.parts.estimation.wrench.confirmed_part import TINY, Zero, compared
 from tandemlift.parts.estimation.wrench.wind_compensation import subtracted_wind
-from tandemlift.parts.mechanics.loads import scaled, sum_over_set, translated
+from tandemlift.parts.mechanics.joint_loads import scaled, sum_over_set, translated
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import UP, apply_inertia, gyroscopic, inertia_value
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion

@@ -38,7 +38,7 @@ from tandemlift.parts.estimation.wrench.wind_compensation import (
     start_payload_drag,
     wind_on_payload,
 )
-from tandemlift.parts.mechanics.loads import add_to_each, sum_over_set
+from tandemlift.parts.mechanics.joint_loads import add_to_each, sum_over_set
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import Inertia, apply_inertia, gyroscopic, inertia_value
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion

@@ -19,7 +19,7 @@ from tandemlift.core.keys import NonNegative, PerAxis, Positive, Table, key
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Absent, Vec3, apply, apply_transposed, cross, dot, spread, vec3
-from tandemlift.parts.mechanics.loads import PartLoad, PartLoads, PartsLayout, translated
+from tandemlift.parts.mechanics.joint_loads import PartLoad, PartLoads, PartsLayout, translated
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import PI, rotation_from_quaternion
 from tandemlift.parts.mechanics.turbulence import (

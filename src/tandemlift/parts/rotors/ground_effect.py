@@ -11,7 +11,7 @@ from tandemlift.core.algebra import maximum
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import Absent, Vec3, set_of, spread
-from tandemlift.parts.mechanics.loads import add_to_each
+from tandemlift.parts.mechanics.joint_loads import add_to_each
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import world_z_in_body
 from tandemlift.parts.mechanics.vehicle import Vehicle

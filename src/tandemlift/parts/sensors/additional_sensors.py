@@ -5,11 +5,11 @@ from __future__ import annotations
 from tandemlift.core.law import law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import Vec3, apply_transposed
-from tandemlift.parts.mechanics.loads import PerfectReadings
+from tandemlift.parts.mechanics.joint_loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.sensors.sensor_list import additional
 from tandemlift.parts.sensors.sensor_registry import register_sensor
+from tandemlift.parts.sensors.vehicle_sensors import additional
 
 NORTH = Vec3(1.0, 0.0, 0.0)  # world axes; the inclination of the field is left out
 

@@ -13,7 +13,7 @@ from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import Quat, Vec3, dot, total
 from tandemlift.parts.sensors.readings import Readings
-from tandemlift.parts.sensors.sensor_list import SENSORS, Sensor
+from tandemlift.parts.sensors.vehicle_sensors import SENSORS, Sensor
 
 FROZEN, NO_NUMBER, OUT_OF_RANGE = (1.0 + i for i in range(len(SYMPTOMS)))
 UNIT_NORM = 0.05  # by which an attitude's norm may differ from 1

@@ -18,7 +18,7 @@ from tandemlift.core.algebra import selected, where
 from tandemlift.core.law import law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import Absent, Quat, Vec3
-from tandemlift.parts.mechanics.loads import PerfectReadings
+from tandemlift.parts.mechanics.joint_loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.noise_bias_drift import (
     ChannelModel,

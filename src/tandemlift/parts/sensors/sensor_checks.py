@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from tandemlift.core.errors import CheckResult, refused, shown, suggestion, warned
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.sensors.sensor_list import ADDITIONAL, DEVICES, SENSORS, sensors_named
 from tandemlift.parts.sensors.sensors_table import SensorFaultTable, SensorsTable, clocks_of, steps_of
+from tandemlift.parts.sensors.vehicle_sensors import ADDITIONAL, DEVICES, SENSORS, sensors_named
 
 MAX_DELAY = 10_000  # steps
 

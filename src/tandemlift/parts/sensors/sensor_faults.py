@@ -26,8 +26,8 @@ from tandemlift.parts.sensors.readings import (
     Readings,
     by_name,
 )
-from tandemlift.parts.sensors.sensor_list import additional_sensor, sensors_named
 from tandemlift.parts.sensors.sensors_table import SensorFaultTable
+from tandemlift.parts.sensors.vehicle_sensors import additional_sensor, sensors_named
 
 
 class SensorFault(NamedTuple):

@@ -1,4 +1,4 @@
-"""Registration of additional sensors with the laws of their readings; `sensor_list` describes them."""
+"""Registration of additional sensors with the laws of their readings; `vehicle_sensors` describes them."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.law import choice
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Quat, Vec3, spread
-from tandemlift.parts.mechanics.loads import PerfectReadings
+from tandemlift.parts.mechanics.joint_loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.sensors.sensor_list import ADDITIONAL, DEVICES, SENSORS, Sensor
+from tandemlift.parts.sensors.vehicle_sensors import ADDITIONAL, DEVICES, SENSORS, Sensor
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -38,7 +38,7 @@ def register_sensor(sensor: Sensor) -> Callable[[F], F]:
     (`core.law`). Registering a name again replaces the sensor if it comes from the same file.
 
     Args:
-        sensor: its row, from `parts.sensors.sensor_list.additional`.
+        sensor: its row, from `parts.sensors.vehicle_sensors.additional`.
 
     Raises:
         InputError: the name is invalid or used, the law is in no file, or returns something else.

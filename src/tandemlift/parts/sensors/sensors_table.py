@@ -9,7 +9,7 @@ from pydantic import AfterValidator, Field
 
 from tandemlift.core.algebra import sqrt
 from tandemlift.core.keys import Axes3, Delay, NonNegative, Positive, Size, Table, key, must
-from tandemlift.parts.sensors.sensor_list import ADDITIONAL, DEVICES, SENSORS, sensors_on
+from tandemlift.parts.sensors.vehicle_sensors import ADDITIONAL, DEVICES, SENSORS, sensors_on
 
 FINEST = 1e-9  # resolution of a sensor, in its unit
 BOUNDLESS = "without a bound"

@@ -30,7 +30,6 @@ from tandemlift.parts.sensors.readings import (
     by_name,
     zero_noise,
 )
-from tandemlift.parts.sensors.sensor_list import additional_sensor
 from tandemlift.parts.sensors.sensor_registry import PARAMETERS
 from tandemlift.parts.sensors.sensors_table import (
     AdditionalSensorTable,
@@ -41,6 +40,7 @@ from tandemlift.parts.sensors.sensors_table import (
     noise_scale,
     steps_of,
 )
+from tandemlift.parts.sensors.vehicle_sensors import additional_sensor
 
 
 def sensors_from(

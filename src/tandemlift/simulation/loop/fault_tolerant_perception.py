@@ -16,7 +16,7 @@ from tandemlift.parts.estimation.push_estimate import PushEstimate
 from tandemlift.parts.guidance.guidance import identified_payload
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceState
 from tandemlift.parts.guidance.preflight_checks import SensorStatus, sensor_status
-from tandemlift.parts.mechanics.loads import PerfectReadings
+from tandemlift.parts.mechanics.joint_loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.health import WatchdogReport
 from tandemlift.parts.sensors.readings import Readings, SensorNoise, Sensors, SensorState, readings_of, sense

@@ -34,7 +34,7 @@ from tandemlift.parts.guidance.contact_hold import contact_of
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceState
 from tandemlift.parts.guidance.phases import in_the_air, is_in
 from tandemlift.parts.interaction.admittance import AdmittanceState
-from tandemlift.parts.mechanics.loads import PerfectReadings
+from tandemlift.parts.mechanics.joint_loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.off_center import about_center
 from tandemlift.parts.sensors.readings import Readings, SensorNoise, Sensors, sense

@@ -12,7 +12,7 @@ from patience import PATIENCE, ended, said
 from study_runs import LONGER, TWELVE, assert_same_rows, files_of, fly, started
 
 from tandemlift.analysis.studies.execution.chunk import sources_digest
-from tandemlift.analysis.studies.execution.running import WAITING
+from tandemlift.analysis.studies.execution.chunk_scheduling import WAITING
 from tandemlift.analysis.studies.execution.workers import fly_packed
 from tandemlift.core.errors import InputError
 

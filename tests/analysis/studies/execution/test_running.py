@@ -6,7 +6,7 @@ import pytest
 from study_runs import TWELVE, assert_same_rows, fly
 
 from tandemlift.analysis.studies.design.study_files import load_plan
-from tandemlift.analysis.studies.execution.running import WAITING, StudyWork, part_from, run_chunks
+from tandemlift.analysis.studies.execution.chunk_scheduling import WAITING, StudyWork, part_from, run_chunks
 from tandemlift.analysis.studies.execution.store import open_folder
 from tandemlift.core.errors import InputError
 

@@ -20,7 +20,7 @@ from tandemlift.core.errors import InputError, shown, suggestion
 from tandemlift.core.files import toml_tables
 from tandemlift.core.keys import is_number
 from tandemlift.missions import Mission
-from tandemlift.missions.keys import bounds, innermost, plain
+from tandemlift.missions.key_descriptions import bounds, innermost, plain
 
 DIGITS = 3  # of a flown number
 LIMITS = {"a", "max_tilt", "velocity_i_limit", "rate_i_limit", "integral_limit", "tracking"}

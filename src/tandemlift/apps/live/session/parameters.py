@@ -16,7 +16,7 @@ from tandemlift.apps.live.session.interactive_mission import NEVER
 from tandemlift.core.errors import InputError, shown
 from tandemlift.missions import Mission, built_in, tables_of
 from tandemlift.missions.changes import MISSING, Tables, place_of, value_at
-from tandemlift.missions.keys import controller_names, own_numbers
+from tandemlift.missions.key_descriptions import controller_names, own_numbers
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 RAMP = 0.5  # s, within which a parameter changes to its new value

@@ -35,7 +35,7 @@ from tandemlift.parts.estimation.wrench.extended_kalman import (
     start_filter,
 )
 from tandemlift.parts.estimation.wrench.observation import ExternalWrench, NominalBody, Observation, observe
-from tandemlift.parts.mechanics.loads import translated
+from tandemlift.parts.mechanics.joint_loads import translated
 from tandemlift.parts.mechanics.rigid_body import UP, apply_inertia, gyroscopic
 from tandemlift.parts.mechanics.rotation import body_z_axis, normalised
 

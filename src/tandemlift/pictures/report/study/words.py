@@ -11,7 +11,7 @@ import numpy as np
 
 from tandemlift.analysis.studies.study_rows import Quantity, RowGroup, StudyRows
 from tandemlift.core.types import Array
-from tandemlift.missions.keys import sections
+from tandemlift.missions.key_descriptions import sections
 from tandemlift.missions.reference import plain_name
 from tandemlift.pictures.report.page import split_unit
 
