@@ -27,7 +27,7 @@ from tandemlift.parts.mechanics.rigid_body import State
 
 FREE = PhaseBounds(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 LEVEL, DT, NEVER = Quat(1.0, 0.0, 0.0, 0.0), 0.05, 1e18
-PHASING = PhaseSettings(1.0, 1.0, 0.5, NEVER, 0.5, 0.03, 0.3, 0.0, 10.0, Absent())
+PHASING = PhaseSettings(1.0, 1.0, 0.5, NEVER, 0.5, 0.03, 0.3, 0.0, 10.0, 3.0, Absent())
 BEFORE = PhaseState(IDLE, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -SETTLING_TIME)
 
 
@@ -183,6 +183,12 @@ def test_hovering_counts_from_steady_flight():
     _, m, _ = flown(3.3 + 2.0)
     assert m.hover_time == pytest.approx(2.0 - SETTLING_TIME, abs=2 * DT)
     assert flown(3.2)[1].hover_time == -SETTLING_TIME
+
+
+@pytest.mark.parametrize(("tare", "left"), [(3.0, -SETTLING_TIME), (0.2, 0.5)])
+def test_a_landing_ends_a_tare_in_hover_unless_it_is_over(tare, left):
+    k = PHASING._replace(requests=requests((3.3 + SETTLING_TIME + 0.5, "land")), tare_duration=tare)
+    assert flown(9.0, k)[1].hover_time == pytest.approx(left, abs=2 * DT)
 
 
 def test_a_vehicle_that_cannot_follow_is_limited_until_it_can():

@@ -78,8 +78,10 @@ def start_scheduled_guidance(table: AdmittanceTable, p: PhasesTable) -> tuple[Sc
     return guidance, AdmittanceState(ZERO, ZERO, ZERO)
 
 
-def phase_settings(p: PhasesTable, c: ComplianceTable, requests: Sequence[RequestTable]) -> PhaseSettings:
-    """The parameters of lift and landing."""
+def phase_settings(
+    p: PhasesTable, c: ComplianceTable, requests: Sequence[RequestTable], tare_duration: float
+) -> PhaseSettings:
+    """The parameters of lift and landing; `tare_duration` [s]: `estimator.tare_duration`."""
     return PhaseSettings(
         height=p.height,
         lift_start=p.lift_start,
@@ -90,6 +92,7 @@ def phase_settings(p: PhasesTable, c: ComplianceTable, requests: Sequence[Reques
         spin_up_time=c.spin_up_time,
         always_running=1.0 if p.rotors == "always" else 0.0,
         max_descent_speed=c.max_descent_speed,
+        tare_duration=tare_duration,
         requests=start_requests(requests),
     )
 
@@ -107,7 +110,7 @@ def start_hand_guidance(
     contact, touching = start_contact_hold(mission.contact, mission.estimator.wrench)
     max_tilt = c.max_tilt if of_controller is None else minimum(c.max_tilt, of_controller)
     guided = HandGuidance(
-        phasing=phase_settings(mission.phases, c, mission.requests),
+        phasing=phase_settings(mission.phases, c, mission.requests, mission.estimator.tare_duration),
         compliance=compliance_from(
             *(c, push, admittance_from(mission.admittance), vec3(mission.admittance.threshold)), vehicle.payload.mass
         ),
