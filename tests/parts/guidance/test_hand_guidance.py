@@ -148,18 +148,18 @@ def test_numbers_that_are_none_are_replaced_by_the_last_state_and_by_no_push():
 @pytest.mark.parametrize("lift", [0.0, 0.7])
 @pytest.mark.parametrize("way", [1.0, -1.0])
 def test_a_reference_may_move_towards_a_side_of_the_fence_as_fast_as_it_can_brake_before_it(way, lift):
-    """The speed towards a side is the braking gain times the distance to it, at most the largest speed."""
+    """The speed towards a side is the braking gain times the distance to it, at most the largest, whatever pulls."""
     f, most = SUPERVISION.fence, np.array(GUIDANCE.compliance.limits.speed)
     side = np.array(f.high if way > 0.0 else f.low)
     place = side - way * np.array([0.1, 0.2, 0.3])
     at = MEMORY.compliance._replace(position=vec3(place - [0.0, 0.0, lift]))
     room = np.minimum(f.braking_gain * np.array([0.1, 0.2, 0.3]), most)
-    pulled = at._replace(output=LowPassState(vec3([way] * 3), ZERO), velocity=vec3([-way] * 3))
-    moving = at._replace(output=LowPassState(ZERO, ZERO), velocity=vec3([way] * 3))
-    for memory in (pulled, moving):
-        assert fenced(SUPERVISION, GUIDANCE.compliance, memory, lift).limits.speed == pytest.approx(room)
-    outside = pulled._replace(position=vec3(side + way * 0.2 - [0.0, 0.0, lift]))
-    assert fenced(SUPERVISION, GUIDANCE.compliance, outside, lift).limits.speed == pytest.approx([0.0] * 3)
+    outside = at._replace(position=vec3(side + way * 0.2 - [0.0, 0.0, lift]))
+    for memory, speed in ((at, room), (outside, [0.0] * 3)):
+        limits = fenced(SUPERVISION, GUIDANCE.compliance, memory, lift).limits
+        towards, back = (limits.speed, limits.speed_back)[:: int(way)]
+        assert towards == pytest.approx(speed)
+        assert back == pytest.approx(most)  # the other side is far
 
 
 def test_without_any_known_motion_a_landing_descends_level_and_faster_in_its_second_half():

@@ -260,7 +260,7 @@ def _by_hand(
     dissipated = dissipated_with(eased, dissipated, before.velocity)
     damping, tank = passivity_damping(g.tank, m.tank, before.filtered.value, state.velocity, dissipated, dt)
     lifted = g.phasing.height * allowed.lift.value
-    compliance = above_ground(g.clearance, g.compliance, before, before.position.z + lifted - phase.ground)
+    compliance = above_ground(g.clearance, g.compliance, before.position.z + lifted - phase.ground)
     compliance = fenced(g.supervision, compliance, before, lifted)
     horizontal = available_acceleration(g.available, disturbance.force, usable_thrust(g.available, t))
     push, responding, given = pilot_input.push, allowed.responding, pilot_input.lead
