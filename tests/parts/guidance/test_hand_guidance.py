@@ -118,11 +118,14 @@ def test_everything_is_the_same_above_a_higher_ground():
     assert found[0].acceleration.z > 0.0  # it brakes, although it is pushed down
 
 
-def test_feet_press_on_the_ground_below_it_in_a_landing_and_on_a_floor_after_it():
+def test_feet_press_on_the_ground_below_it_in_a_landing_and_on_a_floor_before_and_after_it():
     m = MEMORY.phase._replace(ground=0.1)
-    for phase, floor, presses in ((LAND, 0.0, 1), (LAND, 1.0, 1), (IDLE, 1.0, 1), (IDLE, 0.0, 0), (LIFT, 1.0, 0)):
-        assert presses_on_ground(m._replace(phase=phase), 0.09, floor) == presses
-        assert presses_on_ground(m._replace(phase=phase), 0.11, floor) == 0.0
+    for phase, floor, below, above in (
+        *((LAND, 0.0, 1.0, 0.0), (LAND, 1.0, 1.0, 0.0), (IDLE, 1.0, 1.0, 1.0)),
+        *((IDLE, 0.0, 0.0, 0.0), (LIFT, 1.0, 0.0, 0.0)),
+    ):
+        assert presses_on_ground(m._replace(phase=phase), 0.09, floor) == below
+        assert presses_on_ground(m._replace(phase=phase), 0.11, floor) == above
 
 
 def test_numbers_that_are_none_are_replaced_by_the_last_state_and_by_no_push():

@@ -160,9 +160,9 @@ def with_lift_and_landing(g: HandGuidance, T: Trajectory, phase: PhaseOutput) ->
 def presses_on_ground(m: PhaseState, height: Number, floor: Number) -> Number:
     """1 once the reference of a landing, at a height [m], is below the ground, so that the feet press; else 0.
 
-    On a `floor` (1) also after the landing, with running rotors: the force of the floor is no disturbance.
+    On a `floor` (1) also before the lift and after the landing, with running rotors: its force is no disturbance.
     """
-    return (is_in(m, LAND) + is_in(m, IDLE) * floor) * where(height < m.ground, 1.0, 0.0)
+    return is_in(m, LAND) * where(height < m.ground, 1.0, 0.0) + is_in(m, IDLE) * floor
 
 
 @law
