@@ -80,6 +80,16 @@ def test_the_heading_yields_to_the_moment_about_the_vertical_however_the_vehicle
     assert after.value == pytest.approx(wanted.value)
 
 
+@pytest.mark.parametrize("yaw", [10.0, -7.0, 3.0])
+def test_the_first_heading_is_that_of_the_vehicle_within_half_a_turn(yaw):
+    """However many turns the table gives it: the laws wrap differences of headings once."""
+    for model in ("held", "compliant"):
+        mission = tl.load_mission("iris", {"initial.euler": [0.0, 0.0, yaw], "compliance.yaw.model": model})
+        g, m = start_hand_guidance(mission, Vehicle.from_settings(mission.vehicle), Absent())
+        angle = g.heading.angle if model == "held" else m.heading.angle
+        assert angle == pytest.approx(Rotation.from_euler("z", yaw).as_rotvec()[2])
+
+
 ALONE = GUIDANCE._replace(supervision=Absent())
 
 
