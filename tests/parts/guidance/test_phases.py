@@ -82,15 +82,21 @@ def test_a_lift_is_asked_for_on_the_ground_unless_a_landing_is_or_rotors_that_al
     assert wanted(BEFORE._replace(phase=GUIDED)) == wanted(BEFORE, requests=asked._replace(lifts=0.0)) == 0.0
 
 
-def test_a_check_that_refuses_a_lift_delays_it_until_it_no_longer_does():
-    story, _, _ = flown(5.0, bounds=lambda t: FREE._replace(lift_allowed=0.0 if t < 2.5 else 1.0))
-    assert story[0] == (2.5, "lift")
+def refused_until(until):
+    return lambda t: FREE._replace(lift_allowed=0.0 if t < until else 1.0)
+
+
+def test_a_check_that_refuses_a_lift_delays_that_of_the_schedule_and_one_that_was_asked_for_lapses():
+    assert flown(5.0, bounds=refused_until(2.5))[0][0] == (2.5, "lift")
+    asked = PHASING._replace(lift_start=NEVER, requests=requests((2.0, "lift"), (4.0, "lift")))
+    assert flown(5.0, asked, bounds=refused_until(2.1))[0][0] == (2.1, "lift")
+    assert flown(5.0, asked, bounds=refused_until(2.5))[0][0] == (4.0, "lift")  # asked again
+    assert flown(5.0, asked._replace(lift_start=2.0), bounds=refused_until(2.5))[0][0] == (2.5, "lift")
 
 
 def test_a_landing_that_is_asked_for_on_the_ground_takes_back_a_lift_that_was_refused():
-    k = PHASING._replace(requests=requests((2.0, "land")))
-    story, _, _ = flown(6.0, k, bounds=lambda t: FREE._replace(lift_allowed=0.0 if t < 3.0 else 1.0))
-    assert story == []
+    assert flown(6.0, PHASING._replace(requests=requests((2.0, "land"))), bounds=refused_until(3.0))[0] == []
+    assert flown(6.0, bounds=refused_until(3.0), land=lambda t: float(2.0 <= t < 2.2))[0] == []
 
 
 def requests(*asked):

@@ -219,7 +219,7 @@ def update_phase(
     extra_depth = where(lands > 0.0, bounds.extra_depth, m.extra_depth)
     rate = where(lands > 0.0, landing_rate(k, height - ground + k.touchdown_depth + extra_depth), m.land_rate)
     up = smoothstep(t, m.since + k.spin_up_time, k.lift_rate).value
-    settled = maximum(lifts, maximum(1.0 - idle, idle * exceeds(requests.lands, m.handled_lands)))
+    settled = maximum(lifts, maximum(1.0 - idle, wanted[1]))
     return PhaseState(
         phase=phase,
         since=where(phase == m.phase, m.since, t),
@@ -227,7 +227,7 @@ def update_phase(
         land_rate=where(lifts > 0.0, 0.0, rate),
         lift_fraction=where(lifts > 0.0, 0.0, where(is_in(m, LIFT) > 0.0, up, m.lift_fraction)),
         extra_depth=extra_depth,
-        handled_lifts=where(settled > 0.0, requests.lifts, m.handled_lifts),
+        handled_lifts=where(settled > 0.0, requests.lifts, minimum(m.handled_lifts, requests.lifts)),
         handled_lands=where(idle > 0.0, requests.lands, m.handled_lands),
         hover_time=hover_time(k, m, phase, state, dt),
     )
