@@ -118,3 +118,39 @@ def test_a_wall_is_told_from_a_hand_by_motion_and_thrusts(wrench, part):
     assert flight["contact_normal"][told[0], 0] < -0.8
     assert flight.time[told[-1]] < first + 5.0  # the hand leads it away again, or stops
     assert np.abs(flight["position"][flight.time > first + 2.0, 0]).max() < 1.6
+
+
+@pytest.mark.parametrize(("wrench", "tare"), [("kalman", "hover"), ("fused", "at-time")])
+def test_the_force_of_a_floor_is_no_bias_of_a_tare_that_a_landing_interrupts(wrench, tare):
+    phases = {"lift_start": 0.1, "lift_duration": 1.0, "height": 0.3, "land_start": 100.0, "land_duration": 1.5}
+    changes = {
+        "estimator.wrench": wrench,
+        **{"estimator.tare": tare, "estimator.tare_start": 2.4, "estimator.tare_duration": 3.5},
+        **{f"phases.{key}": value for key, value in phases.items()},
+        "requests": [{"time": 3.5, "action": "land"}, {"time": 6.5, "action": "lift"}],
+        **{"pushes": [], "mission.duration": 14.0, "mission.log_interval": 0.01},
+    }
+    flight = tl.fly(tl.load_mission("iris", changes))
+    usable, z = flight["push_usable"] > 0.0, flight["position"][:, 2]
+    assert z[(flight.time > 5.8) & (flight.time < 6.5)] == pytest.approx(0.03, abs=0.001)  # it stands
+    assert usable[-1]
+    assert np.abs(flight["push_measured"][usable]).max() < 0.5
+    assert z[-1] == pytest.approx(0.33, abs=0.01)
+
+
+def test_a_schedule_takes_a_floor_neither_for_a_disturbance_nor_for_a_push():
+    """The rotors run on the floor, before the lift and after the landing."""
+    phases = {"lift_start": 2.0, "lift_duration": 1.0, "height": 0.3, "land_start": 4.0, "land_duration": 1.5}
+    changes = {
+        **{**WITHOUT, "pilot.guidance": "scheduled", "estimator.tare_start": 3.2, "estimator.tare_duration": 0.5},
+        **{f"phases.{key}": value for key, value in phases.items()},
+        **{"phases.rotors": "always", "actuators.start": "hover", "compliance.yaw.model": "held"},
+        **{"pushes": [], "mission.duration": 8.0, "mission.log_interval": 0.01},
+    }
+    flight = tl.fly(tl.load_mission("iris", changes))
+    before, t = flight.time < 2.0, flight.time
+    assert not flight["disturbance_force"][before].any()
+    assert np.abs(flight["push_measured"]).max() < 0.5
+    assert np.abs(flight["admittance_position"]).max() < 0.01
+    assert flight["position"][(t > 3.0) & (t < 4.0), 2] == pytest.approx(0.3, abs=0.02)
+    assert flight["position"][(t < 2.0) | (t > 5.5), 2] == pytest.approx(0.03, abs=0.002)

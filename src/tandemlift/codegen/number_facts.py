@@ -27,8 +27,8 @@ PUSH = {
     "push_moment": Channel("N m", "body", "moment of the person about the centre of mass"),
 }
 REQUESTS = {
-    "land": Channel("1", "", "1 to land, else 0: a request counts once, when it becomes 1", 1),
-    "lift": Channel("1", "", "1 to lift, in addition to phases.lift_start: counts once, when it becomes 1", 1),
+    "land": Channel("1", "", "1 to land, else 0; while it is 1, no lift begins", 1),
+    "lift": Channel("1", "", "1 to lift, else 0, in addition to phases.lift_start; lifts again after a landing", 1),
     "stop": Channel("1", "", "1 to stop the rotors at once: they stay stopped", 1),
     "enabled": Channel("1", "", "1 to follow the person; 0 to hold the position", 1),
 }

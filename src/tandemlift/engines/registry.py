@@ -39,7 +39,8 @@ class EngineBody(Protocol):
 
         Args:
             thrusts: of every rotor [N] (4N,).
-            loads: (6 + 6N,) the numbers of a `parts.mechanics.joint_loads.PartLoads`, held in world axes; empty without wind.
+            loads: (6 + 6N,) the numbers of a `parts.mechanics.joint_loads.PartLoads`, held in world axes; empty without
+                wind.
             force: of the person [N, world axes] (3,), the mean over the step.
             moment: of the person about the centre of mass [N m, body axes] (3,), at the start of the step.
 

@@ -228,7 +228,7 @@ def test_a_mass_beyond_the_nominal_at_the_system_s_centre_turns_without_looking_
     assert array(force) - answer.force.sum(axis=0) == pytest.approx(R.inv().apply(x.push), abs=1e-9)
 
 
-def test_a_tare_that_is_begun_anew_forgets_the_one_before():
+def test_a_tare_that_is_begun_anew_forgets_the_one_before_and_one_without_a_sample_is_none():
     """Told another window in flight, the estimator comes to what one comes to that has seen that window alone."""
     rng, p = np.random.default_rng(3), paper_parts()
     windows = [estimator(p, tare_start=at, tare_duration=0.02, identify_mass=True) for at in (0.01, 0.05)]
@@ -236,13 +236,15 @@ def test_a_tare_that_is_begun_anew_forgets_the_one_before():
     for _ in range(90):
         R, w, x = moment(rng, 2)
         said.append(unit(R, w, solved(p, R, w, x)))
-    twice = once = start_push(windows[0], said[0])
+    twice = once = never = start_push(windows[0], said[0])
     for k, now in enumerate(said):
         first, twice = estimate(windows[k >= 40], twice, now, k * STEP)
         second, once = estimate(windows[1], once, now, k * STEP)
+        untared, never = estimate(windows[1], never, now, k * STEP, 0.0)  # a floor may carry it all the time
         if k == 39:
             assert first.armed == 1.0
             assert first.payload_mass != pytest.approx(second.payload_mass)
     assert twice.sums == once.sums
     assert twice.sums.count == 20.0
     assert (first.measured, first.payload_mass, first.armed) == (second.measured, second.payload_mass, 1.0)
+    assert (never.sums.count, untared.armed) == (0.0, 0.0)

@@ -80,6 +80,16 @@ def test_the_heading_yields_to_the_moment_about_the_vertical_however_the_vehicle
     assert after.value == pytest.approx(wanted.value)
 
 
+@pytest.mark.parametrize("yaw", [10.0, -7.0, 3.0])
+def test_the_first_heading_is_that_of_the_vehicle_within_half_a_turn(yaw):
+    """However many turns the table gives it: the laws wrap differences of headings once."""
+    for model in ("held", "compliant"):
+        mission = tl.load_mission("iris", {"initial.euler": [0.0, 0.0, yaw], "compliance.yaw.model": model})
+        g, m = start_hand_guidance(mission, Vehicle.from_settings(mission.vehicle), Absent())
+        angle = g.heading.angle if model == "held" else m.heading.angle
+        assert angle == pytest.approx(Rotation.from_euler("z", yaw).as_rotvec()[2])
+
+
 ALONE = GUIDANCE._replace(supervision=Absent())
 
 
@@ -118,11 +128,14 @@ def test_everything_is_the_same_above_a_higher_ground():
     assert found[0].acceleration.z > 0.0  # it brakes, although it is pushed down
 
 
-def test_feet_press_on_the_ground_below_it_in_a_landing_and_on_a_floor_after_it():
+def test_feet_press_on_the_ground_below_it_in_a_landing_and_on_a_floor_before_and_after_it():
     m = MEMORY.phase._replace(ground=0.1)
-    for phase, floor, presses in ((LAND, 0.0, 1), (LAND, 1.0, 1), (IDLE, 1.0, 1), (IDLE, 0.0, 0), (LIFT, 1.0, 0)):
-        assert presses_on_ground(m._replace(phase=phase), 0.09, floor) == presses
-        assert presses_on_ground(m._replace(phase=phase), 0.11, floor) == 0.0
+    for phase, floor, below, above in (
+        *((LAND, 0.0, 1.0, 0.0), (LAND, 1.0, 1.0, 0.0), (IDLE, 1.0, 1.0, 1.0)),
+        *((IDLE, 0.0, 0.0, 0.0), (LIFT, 1.0, 0.0, 0.0)),
+    ):
+        assert presses_on_ground(m._replace(phase=phase), 0.09, floor) == below
+        assert presses_on_ground(m._replace(phase=phase), 0.11, floor) == above
 
 
 def test_numbers_that_are_none_are_replaced_by_the_last_state_and_by_no_push():
@@ -148,18 +161,18 @@ def test_numbers_that_are_none_are_replaced_by_the_last_state_and_by_no_push():
 @pytest.mark.parametrize("lift", [0.0, 0.7])
 @pytest.mark.parametrize("way", [1.0, -1.0])
 def test_a_reference_may_move_towards_a_side_of_the_fence_as_fast_as_it_can_brake_before_it(way, lift):
-    """The speed towards a side is the braking gain times the distance to it, at most the largest speed."""
+    """The speed towards a side is the braking gain times the distance to it, at most the largest, whatever pulls."""
     f, most = SUPERVISION.fence, np.array(GUIDANCE.compliance.limits.speed)
     side = np.array(f.high if way > 0.0 else f.low)
     place = side - way * np.array([0.1, 0.2, 0.3])
     at = MEMORY.compliance._replace(position=vec3(place - [0.0, 0.0, lift]))
     room = np.minimum(f.braking_gain * np.array([0.1, 0.2, 0.3]), most)
-    pulled = at._replace(output=LowPassState(vec3([way] * 3), ZERO), velocity=vec3([-way] * 3))
-    moving = at._replace(output=LowPassState(ZERO, ZERO), velocity=vec3([way] * 3))
-    for memory in (pulled, moving):
-        assert fenced(SUPERVISION, GUIDANCE.compliance, memory, lift).limits.speed == pytest.approx(room)
-    outside = pulled._replace(position=vec3(side + way * 0.2 - [0.0, 0.0, lift]))
-    assert fenced(SUPERVISION, GUIDANCE.compliance, outside, lift).limits.speed == pytest.approx([0.0] * 3)
+    outside = at._replace(position=vec3(side + way * 0.2 - [0.0, 0.0, lift]))
+    for memory, speed in ((at, room), (outside, [0.0] * 3)):
+        limits = fenced(SUPERVISION, GUIDANCE.compliance, memory, lift).limits
+        towards, back = (limits.speed, limits.speed_back)[:: int(way)]
+        assert towards == pytest.approx(speed)
+        assert back == pytest.approx(most)  # the other side is far
 
 
 def test_without_any_known_motion_a_landing_descends_level_and_faster_in_its_second_half():

@@ -27,7 +27,7 @@ from tandemlift.parts.mechanics.rigid_body import State
 
 FREE = PhaseBounds(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 LEVEL, DT, NEVER = Quat(1.0, 0.0, 0.0, 0.0), 0.05, 1e18
-PHASING = PhaseSettings(1.0, 1.0, 0.5, NEVER, 0.5, 0.03, 0.3, 0.0, 10.0, Absent())
+PHASING = PhaseSettings(1.0, 1.0, 0.5, NEVER, 0.5, 0.03, 0.3, 0.0, 10.0, 3.0, Absent())
 BEFORE = PhaseState(IDLE, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -SETTLING_TIME)
 
 
@@ -82,15 +82,21 @@ def test_a_lift_is_asked_for_on_the_ground_unless_a_landing_is_or_rotors_that_al
     assert wanted(BEFORE._replace(phase=GUIDED)) == wanted(BEFORE, requests=asked._replace(lifts=0.0)) == 0.0
 
 
-def test_a_check_that_refuses_a_lift_delays_it_until_it_no_longer_does():
-    story, _, _ = flown(5.0, bounds=lambda t: FREE._replace(lift_allowed=0.0 if t < 2.5 else 1.0))
-    assert story[0] == (2.5, "lift")
+def refused_until(until):
+    return lambda t: FREE._replace(lift_allowed=0.0 if t < until else 1.0)
+
+
+def test_a_check_that_refuses_a_lift_delays_that_of_the_schedule_and_one_that_was_asked_for_lapses():
+    assert flown(5.0, bounds=refused_until(2.5))[0][0] == (2.5, "lift")
+    asked = PHASING._replace(lift_start=NEVER, requests=requests((2.0, "lift"), (4.0, "lift")))
+    assert flown(5.0, asked, bounds=refused_until(2.1))[0][0] == (2.1, "lift")
+    assert flown(5.0, asked, bounds=refused_until(2.5))[0][0] == (4.0, "lift")  # asked again
+    assert flown(5.0, asked._replace(lift_start=2.0), bounds=refused_until(2.5))[0][0] == (2.5, "lift")
 
 
 def test_a_landing_that_is_asked_for_on_the_ground_takes_back_a_lift_that_was_refused():
-    k = PHASING._replace(requests=requests((2.0, "land")))
-    story, _, _ = flown(6.0, k, bounds=lambda t: FREE._replace(lift_allowed=0.0 if t < 3.0 else 1.0))
-    assert story == []
+    assert flown(6.0, PHASING._replace(requests=requests((2.0, "land"))), bounds=refused_until(3.0))[0] == []
+    assert flown(6.0, bounds=refused_until(3.0), land=lambda t: float(2.0 <= t < 2.2))[0] == []
 
 
 def requests(*asked):
@@ -183,6 +189,12 @@ def test_hovering_counts_from_steady_flight():
     _, m, _ = flown(3.3 + 2.0)
     assert m.hover_time == pytest.approx(2.0 - SETTLING_TIME, abs=2 * DT)
     assert flown(3.2)[1].hover_time == -SETTLING_TIME
+
+
+@pytest.mark.parametrize(("tare", "left"), [(3.0, -SETTLING_TIME), (0.2, 0.5)])
+def test_a_landing_ends_a_tare_in_hover_unless_it_is_over(tare, left):
+    k = PHASING._replace(requests=requests((3.3 + SETTLING_TIME + 0.5, "land")), tare_duration=tare)
+    assert flown(9.0, k)[1].hover_time == pytest.approx(left, abs=2 * DT)
 
 
 def test_a_vehicle_that_cannot_follow_is_limited_until_it_can():

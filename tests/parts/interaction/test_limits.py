@@ -18,11 +18,13 @@ from tandemlift.parts.interaction.following import (
     must_land,
     update_following,
 )
+from tandemlift.parts.interaction.requests import ReferenceVelocity
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotor_faults import rotor_faults
 from tandemlift.simulation.preparation.start_pilot import start_hand_guidance
 
 H = 1e-3
+NOT_LED = Absent()
 WEIGHT = Vec3(0.0, 0.0, 30.0)
 LIMITS = FollowingLimits(10.0, 0.3, 0.25, 0.5, 1.0, 5.0)
 WELL = Following(WEIGHT, 40.0, ZERO, 0.0, 1.0)
@@ -103,15 +105,15 @@ def test_forces_are_those_of_statics():
     assert available_acceleration(k, Vec3(0.0, 0.0, -2.0), 31.0) == 0.0
 
 
-def lowest(clearance, push, start=1.0, seconds=8.0):
-    """The height of the reference above the ground at every step under a push F(t) [N]."""
+def lowest(clearance, push, start=1.0, seconds=8.0, lead=NOT_LED):
+    """The height of the reference above the ground at every step under a push F(t) [N], or at a caller's velocity."""
     changes = {"pilot.guidance": "interactive", "admittance.gate": "soft"}
     mission = tl.load_mission("one-push", changes)
     g, m = start_hand_guidance(mission, Vehicle.from_settings(mission.vehicle), Absent())
     m, heights = m.compliance, []
     for i in range(round(seconds / H)):
-        k = above_ground(clearance, g.compliance, m, m.position.z + start)
-        m = compliance_step(k, m, vec3((0.0, 0.0, push(i * H))), 1.0, 0.0, 10.0, Absent(), H, Absent(), Absent())
+        k = above_ground(clearance, g.compliance, m.position.z + start)
+        m = compliance_step(k, m, vec3((0.0, 0.0, push(i * H))), 1.0, 0.0, 10.0, Absent(), H, lead, Absent())
         heights.append(m.position.z + start)
     return np.array(heights)
 
@@ -121,6 +123,14 @@ def test_a_push_moves_the_reference_down_to_the_ground_only_where_there_is_no_cl
     assert heights.min() > 0.05  # the jerk is limited, so it brakes a little late
     assert 0.05 < heights[-1] < 0.13
     assert lowest(Absent(), lambda t: -50.0, seconds=2.0).min() < 0.0
+
+
+def test_a_push_upwards_takes_no_limit_from_a_reference_that_still_moves_down():
+    thrown = lowest(GroundClearance(0.1), lambda t: -50.0 if t < 0.8 else 1.2, seconds=4.0)
+    assert 0.05 < thrown.min() < 0.2
+    led = ReferenceVelocity(Vec3(0.0, 0.0, -0.8), 1.0)
+    against = lowest(GroundClearance(0.1), lambda t: 5.0, seconds=4.0, lead=led)
+    assert 0.05 < against.min() < 0.2
 
 
 def test_from_there_a_push_upwards_lifts_it_as_ever():

@@ -163,10 +163,10 @@ def test_the_path_is_gone_along_leg_by_leg_with_a_rest_where_it_is_asked_for():
     assert landing_request(memory) == 1.0
 
 
-def test_two_hands_turn_the_vehicle_towards_its_heading_and_hold_it_at_the_centre():
-    person, memory, _ = company(
-        "two-hands", ({"point": [0.0, 0.0], "heading": 0.3, "dwell": 9.0},), tremor=0.0, grip=0.7
-    )
+@pytest.mark.parametrize("turns", [0, 2, -1])
+def test_two_hands_turn_the_vehicle_towards_its_heading_and_hold_it_at_the_centre(turns):
+    leg = {"point": [0.0, 0.0], "heading": 0.3 + 2.0 * np.pi * turns, "dwell": 9.0}
+    person, memory, _ = company("two-hands", (leg,), tremor=0.0, grip=0.7)
     assert array(person.grip)[1] == 0.0
     for k in range(2000):
         output, memory = person_step(person, memory, NO_PUSH, at((0.0, 0.0, memory.leg.end.z)), CALM, k * DT, DT)

@@ -73,7 +73,7 @@ def _by_both(
     k: FusedPush, memory: FusedPushState, navigator: Navigator, navigation: NavigationState, x: PushInputs
 ) -> PushAndState:
     state, after = navigate(navigator, navigation, x.readings)
-    push, joints = estimate(k.joints, memory.joints, x.readings.imu, x.t)
+    push, joints = estimate(k.joints, memory.joints, x.readings.imu, x.t, x.airborne)
     seen, motion = observation(k.motion, memory.motion, x, state)
     R, count = rotation_from_quaternion(x.readings.imu.frame), maximum(joints.sums.count, 1.0)
     heavier, mean = push.payload_mass - k.motion.mass, joints.sums.specific_force * (1.0 / count)
@@ -104,9 +104,12 @@ def by_joints(push: FusedPush) -> PushEstimator:
     return push.joints
 
 
-@law(absent="aloft", instead={WrenchPush: "aloft", FusedPush: "aloft"})
+@law(absent=1.0, instead={WrenchPush: "aloft", FusedPush: "aloft"})
 def untouched(wind: PayloadDrag, aloft: Number, contact: ContactState | Absent) -> Number:
-    """`aloft`, but 0 in a `contact` (its memory) where wind is subtracted from the push: a wall would be wind."""
+    """`aloft`, but 0 in a `contact` (its memory) where wind is subtracted from the push: a wall would be wind.
+
+    1 for joints alone: a floor does not change what they measure.
+    """
     return aloft * (1.0 - shaken(contact))
 
 

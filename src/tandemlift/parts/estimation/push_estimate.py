@@ -30,7 +30,7 @@ from tandemlift.core.types import Number, NumberSet, PerQuadrotor, number
 from tandemlift.core.vector import ZERO, Absent, Vec3, apply, cross, each, spread, total, vec3
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.estimation.wrench.observation import PushEstimate as PushEstimate
-from tandemlift.parts.estimation.wrench.tare import TINY, SideForces, TareSums, summed, tare_fields, tare_of
+from tandemlift.parts.estimation.wrench.tare import TINY, SideForces, TareSums, is_tared, summed, tare_fields, tare_of
 from tandemlift.parts.estimation.wrench.wind_compensation import (
     PayloadDrag,
     PayloadDragState,
@@ -154,7 +154,7 @@ def disagreement(k: PushEstimator, x: PerQuadrotor, y: PerQuadrotor) -> Number:
 def estimate(
     k: PushEstimator, memory: PushEstimatorState, imu: ImuReading, t: Number, free: Number = 1.0
 ) -> tuple[PushEstimate, PushEstimatorState]:
-    """(Push, the new memory) from a reading of the IMU at time t [s]; `free`: see `wind_on_payload`."""
+    """(Push, the new memory) from a reading of the IMU at time t [s], for a tare if `free`: see `wind_on_payload`."""
     angular = where(imu.fresh > 0.0, (imu.rates - memory.rates) * k.per_interval, memory.angular)
     # the accelerometer is at the origin, and the equations are about the centre of mass
     imu = about_center(k.off_center, imu, angular)
@@ -162,9 +162,9 @@ def estimate(
     moment, outside = moment_on_payload(k, imu, angular), external_forces(k, imu, angular)
     unequal = less_mean(k, outside)
     begun = where(t < k.tare_start, 0.0, 1.0)
-    taken = begun * where(t < k.tare_end, imu.fresh, 0.0)
+    taken = begun * where(t < k.tare_end, imu.fresh, 0.0) * free
     sums = summed(memory.sums, begun, taken, f, a, moment, unequal)
-    armed = where(t < k.tare_end, 0.0, 1.0)
+    armed = is_tared(k.tare_start, k.tare_end, sums.count, t)
     tare = tare_of(k.mass, k.identify, sums, armed)
     wind, wind_memory = wind_on_payload(k.windage, memory.wind, outside.x, outside.y, begun, taken, armed, free)
     force = inertial_force(k, a, imu.rates, angular, tare.mass) - f - tare.force - wind

@@ -32,7 +32,7 @@ from tandemlift.parts.estimation.push_estimate import (
 from tandemlift.parts.estimation.wrench.delay import RotorDelay, RotorDelayState, late_wrench, rotor_delay
 from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation, PushEstimate, observe
 from tandemlift.parts.estimation.wrench.start_observer import SampleNoise, start_wrench_observer
-from tandemlift.parts.estimation.wrench.tare import SideForces, TareSums, summed, tare_fields, tare_of
+from tandemlift.parts.estimation.wrench.tare import SideForces, TareSums, is_tared, summed, tare_fields, tare_of
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import UP, State, Wrench, inertia_value
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
@@ -97,7 +97,8 @@ class WrenchPushState(NamedTuple):
 class PushInputs(NamedTuple):
     """Readings, the last thrusts of the rotors [N], 1 while no floor carries the vehicle, the clock of the tare, dt.
 
-    `airborne` is also 0 in a contact where wind is subtracted from the push (`wind_compensation`).
+    `airborne` is also 0 in a contact where wind is subtracted from the push (`wind_compensation`), and always 1 for
+    joints alone. Only then are samples taken for the tare.
     """
 
     readings: Readings
@@ -165,9 +166,10 @@ def _by_motion(
     found, observer = observe(k.observer, m.observer, seen)
     R = rotation_from_quaternion(state.attitude)
     force = apply_transposed(R, found.force)
-    begun, armed = where(x.t < k.tare_start, 0.0, 1.0), where(x.t < k.tare_end, 0.0, 1.0)
-    taken = begun * where(x.t < k.tare_end, imu.fresh, 0.0)
+    begun = where(x.t < k.tare_start, 0.0, 1.0)
+    taken = begun * where(x.t < k.tare_end, imu.fresh, 0.0) * x.airborne
     sums = summed(m.sums, begun, taken, a * k.mass - force, a, found.moment, m.sums.sides)
+    armed = is_tared(k.tare_start, k.tare_end, sums.count, x.t)
     tare = tare_of(k.mass, k.identify, sums, armed)
     push = (force + a * (tare.mass - k.mass) - tare.force) * x.airborne
     moment = (found.moment - tare.moment) * x.airborne - cross(k.payload, push)

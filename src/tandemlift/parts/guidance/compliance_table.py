@@ -93,7 +93,8 @@ def compliance_from(
     c: ComplianceTable, push: PushFilters, admittance: Admittance, threshold: Vec3, payload: float
 ) -> Compliance:
     """The compliance around an admittance; pushes below the threshold [N] are ignored. `payload`: assumed mass [kg]."""
-    limits = MotionLimits(vec3(c.max_speed), vec3(c.max_acceleration), vec3(c.max_jerk), c.braking_gain)
+    speed = vec3(c.max_speed)
+    limits = MotionLimits(speed, speed, vec3(c.max_acceleration), vec3(c.max_jerk), c.braking_gain)
     return Compliance(
         input_filter=push.input,
         band=push.dead_band(threshold),

@@ -104,8 +104,8 @@ class LoadOfWall(NamedTuple):
     touching: Number
 
 
-class RunningInFlight(NamedTuple):
-    """Rotors run from the `start` [s] of the lift to the end of the landing at `stop` [s]."""
+class TimeSpan(NamedTuple):
+    """From `start` until before `stop` [s]."""
 
     start: Number
     stop: Number
@@ -208,17 +208,24 @@ def thrust_fraction(rotors: ThrustFraction) -> Number:
     return rotors.value
 
 
+@law(absent=1.0)
+def is_within(span: TimeSpan, t: Number) -> Number:
+    """1 at a time t [s] within a span, else 0."""
+    return where(t < span.start, 0.0, where(t < span.stop, 1.0, 0.0))
+
+
 @law(absent="rotors")
-def run(rotors: RunningInFlight, t: Number) -> ThrustFraction:
+def run(rotors: TimeSpan, t: Number) -> ThrustFraction:
     """`Absent` or a `ThrustFraction`, for `running`: whether rotors run at time t [s]."""
-    return ThrustFraction(where(t < rotors.start, 0.0, where(t < rotors.stop, 1.0, 0.0)))
+    return ThrustFraction(is_within(rotors, t))
 
 
-def running_from(p: PhasesTable) -> RunningInFlight | Absent:
-    """The times at which the rotors turn."""
-    if p.rotors == "always":
-        return Absent()
-    return RunningInFlight(p.lift_start, NEVER if p.land_start is None else p.land_start + p.land_duration)
+def flight_spans(p: PhasesTable, ground: str) -> tuple[TimeSpan, TimeSpan] | tuple[Absent, Absent]:
+    """The scheduled flight over a floor, with and without lift and landing; `ground`: `ground.model`."""
+    if ground == "none":
+        return Absent(), Absent()
+    land = NEVER if p.land_start is None else p.land_start
+    return TimeSpan(p.lift_start, land + p.land_duration), TimeSpan(p.lift_start + p.lift_duration, land)
 
 
 def reading_checks(pilot: PilotTable, sensors: str) -> Iterator[CheckResult]:

@@ -160,9 +160,9 @@ def with_lift_and_landing(g: HandGuidance, T: Trajectory, phase: PhaseOutput) ->
 def presses_on_ground(m: PhaseState, height: Number, floor: Number) -> Number:
     """1 once the reference of a landing, at a height [m], is below the ground, so that the feet press; else 0.
 
-    On a `floor` (1) also after the landing, with running rotors: the force of the floor is no disturbance.
+    On a `floor` (1) also before the lift and after the landing, with running rotors: its force is no disturbance.
     """
-    return (is_in(m, LAND) + is_in(m, IDLE) * floor) * where(height < m.ground, 1.0, 0.0)
+    return is_in(m, LAND) * where(height < m.ground, 1.0, 0.0) + is_in(m, IDLE) * floor
 
 
 @law
@@ -260,7 +260,7 @@ def _by_hand(
     dissipated = dissipated_with(eased, dissipated, before.velocity)
     damping, tank = passivity_damping(g.tank, m.tank, before.filtered.value, state.velocity, dissipated, dt)
     lifted = g.phasing.height * allowed.lift.value
-    compliance = above_ground(g.clearance, g.compliance, before, before.position.z + lifted - phase.ground)
+    compliance = above_ground(g.clearance, g.compliance, before.position.z + lifted - phase.ground)
     compliance = fenced(g.supervision, compliance, before, lifted)
     horizontal = available_acceleration(g.available, disturbance.force, usable_thrust(g.available, t))
     push, responding, given = pilot_input.push, allowed.responding, pilot_input.lead

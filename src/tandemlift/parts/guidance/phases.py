@@ -29,7 +29,8 @@ class PhaseSettings(NamedTuple):
     `height` [m] of the lift; the times of the requests to lift and to land [s]; rates are 1/duration [1/s].
     `touchdown_depth` [m]: depth at which a landing's reference ends, so that the feet press. `spin_up_time`
     [s]: from the start of the rotors to the lift. `always_running` is 1 if the rotors run on the ground too, else 0.
-    `max_descent_speed` [m/s]: of a landing. `requests`: a `RequestSchedule`, or `Absent`.
+    `max_descent_speed` [m/s]: of a landing. `tare_duration` [s]: of a tare in hover. `requests`: a `RequestSchedule`,
+    or `Absent`.
     """
 
     height: Number
@@ -41,6 +42,7 @@ class PhaseSettings(NamedTuple):
     spin_up_time: Number
     always_running: Number
     max_descent_speed: Number
+    tare_duration: Number
     requests: RequestSchedule | Absent
 
 
@@ -173,13 +175,16 @@ def landing_rate(k: PhaseSettings, height: Number) -> Number:
 
 
 @law
-def hover_time(m: PhaseState, phase: Number, state: State, dt: Number) -> Number:
-    """The time of steady hover, less `SETTLING_TIME` [s]; above zero, being in the air is sufficient."""
-    flies = where(phase == GUIDED, 1.0, where(phase == HOLD, 1.0, where(phase == CONTACT, 1.0, 0.0)))
-    up = where(phase == LIMITED, 1.0, flies)
+def hover_time(k: PhaseSettings, m: PhaseState, phase: Number, state: State, dt: Number) -> Number:
+    """The time of steady hover, less `SETTLING_TIME` [s]; above zero, being in the air is sufficient.
+
+    A landing stops it; a tare that the landing interrupts begins again in the next hover.
+    """
+    up = in_the_air(m._replace(phase=phase))
     moving = maximum(dot(state.velocity, state.velocity), dot(state.rates, state.rates))
     steady = where(moving < STEADY_SPEED * STEADY_SPEED, up, where(m.hover_time >= 0.0, up, 0.0))
-    return where(steady > 0.0, m.hover_time + dt, where(m.hover_time >= 0.0, m.hover_time, -SETTLING_TIME))
+    stopped = where(m.hover_time < k.tare_duration, -SETTLING_TIME, m.hover_time)
+    return where(steady > 0.0, m.hover_time + dt, stopped)
 
 
 @law
@@ -214,7 +219,7 @@ def update_phase(
     extra_depth = where(lands > 0.0, bounds.extra_depth, m.extra_depth)
     rate = where(lands > 0.0, landing_rate(k, height - ground + k.touchdown_depth + extra_depth), m.land_rate)
     up = smoothstep(t, m.since + k.spin_up_time, k.lift_rate).value
-    settled = maximum(lifts, maximum(1.0 - idle, idle * exceeds(requests.lands, m.handled_lands)))
+    settled = maximum(lifts, maximum(1.0 - idle, wanted[1]))
     return PhaseState(
         phase=phase,
         since=where(phase == m.phase, m.since, t),
@@ -222,9 +227,9 @@ def update_phase(
         land_rate=where(lifts > 0.0, 0.0, rate),
         lift_fraction=where(lifts > 0.0, 0.0, where(is_in(m, LIFT) > 0.0, up, m.lift_fraction)),
         extra_depth=extra_depth,
-        handled_lifts=where(settled > 0.0, requests.lifts, m.handled_lifts),
+        handled_lifts=where(settled > 0.0, requests.lifts, minimum(m.handled_lifts, requests.lifts)),
         handled_lands=where(idle > 0.0, requests.lands, m.handled_lands),
-        hover_time=hover_time(m, phase, state, dt),
+        hover_time=hover_time(k, m, phase, state, dt),
     )
 
 

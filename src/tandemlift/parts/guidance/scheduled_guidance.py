@@ -9,7 +9,7 @@ from tandemlift.core.law import Absent, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
-from tandemlift.parts.guidance.guidance import Guidance, PilotInput, RunningInFlight, checked_input, guide, run
+from tandemlift.parts.guidance.guidance import Guidance, PilotInput, TimeSpan, checked_input, guide, is_within, run
 from tandemlift.parts.interaction.admittance import (
     Admittance,
     AdmittanceState,
@@ -24,13 +24,17 @@ from tandemlift.parts.mechanics.trajectories import Reference, ScheduledPhases, 
 
 
 class ScheduledGuidance(NamedTuple):
-    """The paper's guidance; `yaw` is ψ_d [rad]. The types of its members pick the laws."""
+    """The paper's guidance; `yaw` is ψ_d [rad]. The types of its members pick the laws.
+
+    `rotors`: while they run. `flight` over a floor, or `Absent`: before and after it, the floor is no disturbance.
+    """
 
     gate: HardGate | SoftGate
     admittance: Admittance
     phases: ScheduledPhases
     yaw: Number
-    rotors: RunningInFlight | Absent
+    rotors: TimeSpan | Absent
+    flight: TimeSpan | Absent
 
 
 @law(absent="motion")
@@ -65,7 +69,7 @@ def _by_schedule(
         push=pilot_input.push,
         moment=ZERO,
         running=run(g.rotors, t),
-        flying=1.0,
+        flying=is_within(g.flight, t),
         learning=1.0,
         channels=Absent(),
     )

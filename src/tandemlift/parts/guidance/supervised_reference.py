@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tandemlift.core.algebra import chosen, clip, maximum, where
+from tandemlift.core.algebra import chosen, clip, maximum
 from tandemlift.core.law import Absent, choice, elementwise, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Vec3
@@ -46,20 +46,17 @@ def _with_numbers(
 
 
 @elementwise
-def speed_limit(
-    position: Number, velocity: Number, pull: Number, low: Number, high: Number, gain: Number, max_speed: Number
-) -> Number:
-    """The largest speed [m/s] of a reference towards the side of the fence to which it moves or is pulled."""
-    toward = where(pull == 0.0, velocity, pull)
-    return clip(gain * where(toward > 0.0, high - position, position - low), 0.0, max_speed)
+def speed_limit(distance: Number, gain: Number, max_speed: Number) -> Number:
+    """The largest speed [m/s] of a reference towards a side of the fence at a distance [m]."""
+    return clip(gain * distance, 0.0, max_speed)
 
 
 @law(absent="compliance")
 def fenced(k: Supervision, compliance: Compliance, m: ComplianceState, lift: Number) -> Compliance:
     """The compliance with speed limits that keep the reference inside the fence; `lift`: height already lifted [m]."""
-    f, at, max_speed = k.fence, m.position + Vec3(0.0, 0.0, lift), compliance.limits.speed
-    limit = speed_limit(at, m.velocity, m.output.value, f.low, f.high, f.braking_gain, max_speed)
-    return with_speed(compliance, limit)
+    f, at, most = k.fence, m.position + Vec3(0.0, 0.0, lift), compliance.limits
+    speed = speed_limit(f.high - at, f.braking_gain, most.speed)
+    return with_speed(compliance, speed, speed_limit(at - f.low, f.braking_gain, most.speed_back))
 
 
 @law(absent="target")

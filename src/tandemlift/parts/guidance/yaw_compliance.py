@@ -18,7 +18,7 @@ from tandemlift.core.vector import Absent
 from tandemlift.parts.guidance.phases import PhaseOutput
 from tandemlift.parts.interaction.compliance import DeadBand, DeadBandState, PushFilters, dead_band
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass_step
-from tandemlift.parts.mechanics.rotation import wrap_angle
+from tandemlift.parts.mechanics.rotation import heading_from, wrap_angle
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
@@ -149,6 +149,7 @@ def start_heading(
     table: YawTable, push: PushFilters, vehicle: Vehicle, heading: Number
 ) -> tuple[YawCompliance, YawState] | tuple[FixedHeading, Absent]:
     """The compliance about the yaw axis from a heading [rad], and its memory; `push`: the filters of a push."""
+    heading = heading_from(heading)
     if table.model == "held":
         return FixedHeading(heading, table.max_lead_angle), Absent()
     turning = YawCompliance(

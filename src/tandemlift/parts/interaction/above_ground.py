@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra import clip, where
+from tandemlift.core.algebra import clip
 from tandemlift.core.law import law
 from tandemlift.core.types import Number
-from tandemlift.parts.interaction.compliance import Compliance, ComplianceState, with_speed
+from tandemlift.parts.interaction.compliance import Compliance, with_speed
 
 APPROACH_GAIN = 2.0  # 1/s: largest speed downwards over the height that is left
 
@@ -29,9 +29,8 @@ def has_floor(k: GroundClearance) -> Number:
 
 
 @law(absent="compliance")
-def above_ground(k: GroundClearance, compliance: Compliance, m: ComplianceState, height: Number) -> Compliance:
+def above_ground(k: GroundClearance, compliance: Compliance, height: Number) -> Compliance:
     """The compliance with a limit of the speed downwards; `height` [m] of the reference above the ground."""
-    speed, pull = compliance.limits.speed, m.output.value.z
-    down = where(pull == 0.0, m.velocity.z, pull)
-    slower = clip(APPROACH_GAIN * (height - k.height), 0.0, speed.z)
-    return with_speed(compliance, speed._replace(z=where(down < 0.0, slower, speed.z)))
+    speed, down = compliance.limits.speed, compliance.limits.speed_back
+    slower = clip(APPROACH_GAIN * (height - k.height), 0.0, down.z)
+    return with_speed(compliance, speed, down._replace(z=slower))

@@ -74,9 +74,10 @@ class DeadBandState(NamedTuple, Generic[V]):
 
 
 class MotionLimits(NamedTuple):
-    """Largest speed [m/s], acceleration [m/s²] and jerk [m/s³] along each axis; gain of the braking [1/s]."""
+    """Largest speed along and against each axis [m/s], acceleration [m/s²], jerk [m/s³]; gain of the braking [1/s]."""
 
     speed: Vec3
+    speed_back: Vec3
     acceleration: Vec3
     jerk: Vec3
     braking_gain: Number
@@ -168,9 +169,9 @@ def dead_band(k: DeadBand[V], m: DeadBandState[V], force: V, enabled: Number, dt
 
 
 @elementwise
-def speed_limited(acceleration: Number, velocity: Number, max_speed: Number, gain: Number) -> Number:
-    """An acceleration that keeps the speed within a limit, by braking towards it."""
-    return clip(acceleration, -gain * (max_speed + velocity), gain * (max_speed - velocity))
+def speed_limited(acceleration: Number, velocity: Number, speed: Number, speed_back: Number, gain: Number) -> Number:
+    """An acceleration that keeps the speed within its limit in each direction, by braking towards it."""
+    return clip(acceleration, -gain * (speed_back + velocity), gain * (speed - velocity))
 
 
 @elementwise
@@ -240,7 +241,7 @@ def compliance_step(
     output = low_pass_step(k.output_filter, m.output, beyond)
     response = limited_response(k, m, with_policy(eased, output.value), damping)
     free = led_by(lead, k.limits, m.velocity, enabled, response)
-    bounded = speed_limited(free, m.velocity, k.limits.speed, k.limits.braking_gain)
+    bounded = speed_limited(free, m.velocity, k.limits.speed, k.limits.speed_back, k.limits.braking_gain)
     target = within(boundary, with_horizontal_limit(bounded, horizontal))
     # the jerk is limited last, so that no other limit makes the acceleration jump
     acceleration = moved_towards(m.acceleration, target, k.limits.jerk * dt)
@@ -259,9 +260,9 @@ def compliance_step(
 
 
 @law
-def with_speed(k: Compliance, speed: Vec3) -> Compliance:
-    """A compliance with another largest speed along each axis [m/s]."""
-    return k._replace(limits=k.limits._replace(speed=speed))
+def with_speed(k: Compliance, speed: Vec3, speed_back: Vec3) -> Compliance:
+    """A compliance with other largest speeds along and against each axis [m/s]."""
+    return k._replace(limits=k.limits._replace(speed=speed, speed_back=speed_back))
 
 
 @law

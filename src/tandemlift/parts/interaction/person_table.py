@@ -27,6 +27,7 @@ from tandemlift.parts.interaction.tremor import NO_TREMOR_NOISE, STILL, tremor
 from tandemlift.parts.interaction.virtual_hand import HAND_RELEASED, VirtualHand, VirtualHandState
 from tandemlift.parts.mechanics.low_pass import LowPassState, low_pass
 from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import heading_from
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
@@ -193,7 +194,7 @@ def path_legs_from(p: PersonTable, person: Person | Absent, walk: Walk) -> list[
     level = at.z
     for place, w in enumerate(walk.waypoints):
         end = Vec3(number(w.point[0]), number(w.point[1]), level + w.rise)
-        heading = heading if w.heading is None else w.heading
+        heading = heading_from(heading if w.heading is None else w.heading)
         stops = 1.0 if place == len(walk.waypoints) - 1 else where(w.dwell > 0.0, 1.0, 0.0)
         radius = where(stops > 0.0, p.arrival_radius, p.corner_distance)
         legs.append(PathLeg(at, end, heading, w.dwell, stops, radius, float(place)))

@@ -1,7 +1,8 @@
 """Requests of an operator, at set times or now; and the status of the vehicle beside its state.
 
-A request to lift or to land counts once, and lapses once it is done or refused. A stop is final. Enabled or disabled
-holds until the next request about it.
+A request to lift holds for `REQUEST_TIME`: if a check refuses it for so long, somebody has to ask again, so that no
+rotor starts unasked. A landing in flight counts once. A stop is final. Enabled or disabled holds until the next request
+about it.
 """
 
 from __future__ import annotations
@@ -16,9 +17,13 @@ from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import NEVER, Number, NumberSet
 from tandemlift.core.vector import Absent, Vec3, each, total
 
+REQUEST_TIME = 0.2  # s, for which a request to lift holds
+
 
 class RequestTable(Table):
     """`[[requests]]`: requests of an operator, one table each; they need `pilot.guidance = "interactive"`.
+
+    A lift that a check refuses lapses after 0.2 s.
 
     If the first request of "enable" and "disable" is "enable", the vehicle starts disabled.
     """
@@ -84,7 +89,7 @@ class RequestSchedule(NamedTuple):
 
 
 class RequestCounts(NamedTuple):
-    """All requests until a time: the number of those to lift and to land; 1 or 0 for stop, and for enabled."""
+    """The number of requests to lift that hold, and of all until now to land; 1 or 0 for stop, and for enabled."""
 
     lifts: Number
     lands: Number
@@ -98,6 +103,12 @@ def due(time: Number, request: Number, t: Number) -> Number:
     return where(t >= time, request, 0.0)
 
 
+@elementwise
+def held(time: Number, request: Number, t: Number) -> Number:
+    """A request from its time on for `REQUEST_TIME`, before and after 0."""
+    return where(t < time, 0.0, where(t < time + REQUEST_TIME, request, 0.0))
+
+
 @choice(absent=NO_REQUEST)
 def operator_request(person: object) -> OperatorRequest:
     """`OperatorRequest` of a person at the vehicle, from their memory."""
@@ -108,7 +119,7 @@ def requests_until(requests: RequestSchedule, t: Number) -> RequestCounts:
     """`RequestCounts` of a schedule until time t [s]."""
     r = requests
     return RequestCounts(
-        total(due(r.time, r.lift, t)),
+        total(held(r.time, r.lift, t)),
         total(due(r.time, r.land, t)),
         minimum(total(due(r.time, r.stop, t)), 1.0),
         r.enabled + total(due(r.time, r.change, t)),

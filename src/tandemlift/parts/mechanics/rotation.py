@@ -8,7 +8,7 @@ rotation vector is an axis times an angle [rad]. Source: Shuster, A survey of at
 
 from typing import NamedTuple
 
-from tandemlift.core.algebra import atan2, atan_ratio, clip, cos, maximum, minimum, sin, sqrt, tan, where
+from tandemlift.core.algebra import absolute, atan2, atan_ratio, clip, cos, maximum, minimum, sin, sqrt, tan, where
 from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import Absent, Mat3, Quat, Vec3, dot, hamilton
@@ -34,6 +34,11 @@ class Euler(NamedTuple):
 def wrap_angle(angle: Number) -> Number:
     """The same angle within [−π, π], for angles within [−3π, 3π] [rad]."""
     return angle - where(angle > PI, 2.0 * PI, where(angle < -PI, -2.0 * PI, 0.0))
+
+
+def heading_from(angle: Number) -> Number:
+    """The same angle within [−π, π], for any angle [rad]."""
+    return where(absolute(angle) > PI, atan2(sin(angle), cos(angle)), angle)
 
 
 @law

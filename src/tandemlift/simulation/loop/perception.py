@@ -31,6 +31,7 @@ from tandemlift.parts.estimation.push_confirmation import (
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, PushEstimatorState
 from tandemlift.parts.estimation.wrench_push import PushInputs, WrenchPush, WrenchPushState, push_and_state
 from tandemlift.parts.guidance.contact_hold import contact_of
+from tandemlift.parts.guidance.guidance import TimeSpan, is_within
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceState
 from tandemlift.parts.guidance.phases import in_the_air, is_in
 from tandemlift.parts.interaction.admittance import AdmittanceState
@@ -61,7 +62,7 @@ class Estimators(NamedTuple):
     """The estimators of push and state, the nominal vehicle, the start of the tare, and the checks of the push.
 
     The checks are the detector of contacts, and the confirmation by other loads on the vehicle. `sampling` is `Absent`
-    where the IMU samples at every step.
+    where the IMU samples at every step. `hover`: times between lift and landing if they are scheduled over a floor.
     """
 
     push: PushEstimator | WrenchPush | FusedPush
@@ -71,6 +72,7 @@ class Estimators(NamedTuple):
     contact: ContactDetector | Absent
     confirmation: PushConfirmation | Absent
     sampling: Sampling | Absent
+    hover: TimeSpan | Absent
 
 
 class TareAtTime(NamedTuple):
@@ -190,7 +192,8 @@ def _estimated(
     dt: Number,
 ) -> tuple[Estimates, EstimatorState]:
     dt = time_between(estimators.sampling, dt)
-    inputs = PushInputs(readings, commands, untouched(estimators.push, surroundings.aloft, memory.contact), t, dt)
+    aloft = surroundings.aloft * is_within(estimators.hover, t)  # of a schedule, whose tare has no other clock
+    inputs = PushInputs(readings, commands, untouched(estimators.push, aloft, memory.contact), t, dt)
     push, pushed, state, moved = push_and_state(estimators.push, memory.push, estimators.state, memory.state, inputs)
     used = by_joints(estimators.push)
     imu = about_center(used.off_center, readings.imu, pushed.angular)
@@ -238,20 +241,8 @@ def known_surroundings(
 
 @law(instead={AdmittanceState: 1.0})
 def aloft(guidance: HandGuidanceState) -> Number:
-    """1 in flight, except in lift and landing, else 0; 1 where guidance is scheduled."""
+    """1 in flight, except in lift and landing, else 0; 1 where guidance is scheduled: see `Estimators.hover`."""
     return in_the_air(guidance.phase)
-
-
-@law(absent="known")
-def with_flight_phase(push: WrenchPush, known: KnownSurroundings, guidance: object) -> KnownSurroundings:
-    """The same, with the phase of the flight where a floor would be a push, to an observer, or wind."""
-    return known._replace(aloft=aloft(guidance))
-
-
-with_flight_phase.register(FusedPush)(lambda push, known, guidance: known._replace(aloft=aloft(guidance)))
-with_flight_phase.register(PushEstimator)(  # whose wind compensation would take a floor for wind
-    lambda push, known, guidance: known if isinstance(push.windage, Absent) else known._replace(aloft=aloft(guidance))
-)
 
 
 @surroundings_of.register(Estimators)
@@ -261,7 +252,7 @@ def _surroundings(
     near: NearWalls | Absent,
     guidance: AdmittanceState | HandGuidanceState,
 ) -> KnownSurroundings:
-    return with_flight_phase(estimators.push, known_surroundings(estimators.contact, sources, near, guidance), guidance)
+    return known_surroundings(estimators.contact, sources, near, guidance)._replace(aloft=aloft(guidance))
 
 
 @law(absent="readings")

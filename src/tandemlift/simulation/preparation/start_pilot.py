@@ -18,14 +18,14 @@ from tandemlift.parts.estimation.wrench_push import PushInputs, push_and_state
 from tandemlift.parts.guidance.available import start_available
 from tandemlift.parts.guidance.compliance_table import ComplianceTable, compliance_from, push_filters
 from tandemlift.parts.guidance.contact_hold import start_contact_hold
-from tandemlift.parts.guidance.guidance import running_from
+from tandemlift.parts.guidance.guidance import flight_spans
 from tandemlift.parts.guidance.hand_guidance import HandGuidance, HandGuidanceState
 from tandemlift.parts.guidance.phases import PhaseSettings, start_phases
 from tandemlift.parts.guidance.scheduled_guidance import ScheduledGuidance
 from tandemlift.parts.guidance.supervision_table import start_supervision
 from tandemlift.parts.guidance.yaw_compliance import start_heading
 from tandemlift.parts.interaction.above_ground import GroundClearance
-from tandemlift.parts.interaction.admittance import AdmittanceState, AdmittanceTable, admittance_from, gate_from
+from tandemlift.parts.interaction.admittance import AdmittanceState, admittance_from, gate_from
 from tandemlift.parts.interaction.compliance import start_compliance
 from tandemlift.parts.interaction.energy_tank import start_tank
 from tandemlift.parts.interaction.following import AT_REST, start_following
@@ -58,7 +58,7 @@ def start_pilot(mission: Mission, vehicle: Vehicle) -> tuple[PilotParameters, Pi
     guidance, guidance_memory = (
         start_hand_guidance(mission, vehicle, known)
         if mission.pilot.guidance == "interactive"
-        else start_scheduled_guidance(mission.admittance, mission.phases)
+        else start_scheduled_guidance(mission)
     )
     observer, observer_memory = start_observer(mission.observer, vehicle, effect, step, initial, hovers=hovers)
     allocation, allocation_memory = start_allocation(mission.allocation, vehicle, known)
@@ -72,14 +72,19 @@ def start_pilot(mission: Mission, vehicle: Vehicle) -> tuple[PilotParameters, Pi
     return parameters, PilotMemory(guidance_memory, observer_memory, memory, led, allocation_memory, detection_memory)
 
 
-def start_scheduled_guidance(table: AdmittanceTable, p: PhasesTable) -> tuple[ScheduledGuidance, AdmittanceState]:
+def start_scheduled_guidance(mission: Mission) -> tuple[ScheduledGuidance, AdmittanceState]:
     """Scheduled guidance before its first sample, and its memory."""
-    guidance = ScheduledGuidance(gate_from(table), admittance_from(table), scheduled_phases(p), 0.0, running_from(p))
+    table, p = mission.admittance, mission.phases
+    flight, _ = flight_spans(p, mission.ground.model)
+    rotors = Absent() if p.rotors == "always" else flight
+    guidance = ScheduledGuidance(gate_from(table), admittance_from(table), scheduled_phases(p), 0.0, rotors, flight)
     return guidance, AdmittanceState(ZERO, ZERO, ZERO)
 
 
-def phase_settings(p: PhasesTable, c: ComplianceTable, requests: Sequence[RequestTable]) -> PhaseSettings:
-    """The parameters of lift and landing."""
+def phase_settings(
+    p: PhasesTable, c: ComplianceTable, requests: Sequence[RequestTable], tare_duration: float
+) -> PhaseSettings:
+    """The parameters of lift and landing; `tare_duration` [s]: `estimator.tare_duration`."""
     return PhaseSettings(
         height=p.height,
         lift_start=p.lift_start,
@@ -90,6 +95,7 @@ def phase_settings(p: PhasesTable, c: ComplianceTable, requests: Sequence[Reques
         spin_up_time=c.spin_up_time,
         always_running=1.0 if p.rotors == "always" else 0.0,
         max_descent_speed=c.max_descent_speed,
+        tare_duration=tare_duration,
         requests=start_requests(requests),
     )
 
@@ -107,7 +113,7 @@ def start_hand_guidance(
     contact, touching = start_contact_hold(mission.contact, mission.estimator.wrench)
     max_tilt = c.max_tilt if of_controller is None else minimum(c.max_tilt, of_controller)
     guided = HandGuidance(
-        phasing=phase_settings(mission.phases, c, mission.requests),
+        phasing=phase_settings(mission.phases, c, mission.requests, mission.estimator.tare_duration),
         compliance=compliance_from(
             *(c, push, admittance_from(mission.admittance), vec3(mission.admittance.threshold)), vehicle.payload.mass
         ),
@@ -160,7 +166,9 @@ def start_estimators(
         moment_threshold=mission.compliance.yaw.threshold,
         limited=mission.allocation.method == "constrained",
     )
-    known = perception.Estimators(push, observer, believed, tare, contact, confirmation, sampling)
+    by_hand = mission.pilot.guidance == "interactive"
+    hover = Absent() if by_hand else flight_spans(mission.phases, mission.ground.model)[1]
+    known = perception.Estimators(push, observer, believed, tare, contact, confirmation, sampling, hover)
     touching = Absent() if isinstance(no_contact, Absent) else no_contact.contact
     held = Absent() if isinstance(sampling, Absent) else perception.HeldEstimates(first, state, touching, 0.0)
     return known, perception.EstimatorState(pushed, navigation, no_contact, unconfirmed, held)

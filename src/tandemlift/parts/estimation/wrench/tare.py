@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from typing import Any, Generic, NamedTuple
 
-from tandemlift.core.algebra import maximum, where
+from tandemlift.core.algebra import maximum, minimum, where
 from tandemlift.core.law import choice, law
 from tandemlift.core.types import N, Number, NumberSet, number
 from tandemlift.core.vector import Absent, Vec3, dot
@@ -72,6 +72,12 @@ def summed(
         sums.square * begun + dot(a, a) * taken,
         SideForces(sums.sides.x * begun + unequal.x * taken, sums.sides.y * begun + unequal.y * taken),
     )
+
+
+@law
+def is_tared(start: Number, end: Number, count: Number, t: Number) -> Number:
+    """1 once a tare from `start` until before `end` [s] is over that has a sample, and where there is none; else 0."""
+    return where(t < end, 0.0, where(end < start, 1.0, minimum(count, 1.0)))
 
 
 @law
