@@ -72,10 +72,9 @@ def _upright(euler: Triple) -> Triple:
     for name, angle, reason in zip(("roll", "pitch"), euler[:2], reasons, strict=True):
         if abs(angle) >= math.radians(85.0):
             words = f"have a {name} within ±1.4835 rad (±85°), {reason}; {angle:g} rad is {math.degrees(angle):.3g}°"
-            near = (
-                f". Did you mean {math.radians(angle):.4g} ({angle:g}°)?" if 90.0 > abs(angle) > 0.5 * math.pi else ""
-            )
-            raise must(name, words + near)
+            if 0.5 * math.pi < abs(angle) < 90.0:
+                words += f". Did you mean {math.radians(angle):.4g} ({angle:g}°)?"
+            raise must(name, words)
     return euler
 
 
