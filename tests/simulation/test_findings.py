@@ -8,6 +8,7 @@ from scipy.fft import rfft, rfftfreq
 from scipy.signal import find_peaks
 
 import tandemlift as tl
+from tandemlift.parts.guidance.supervision import SLOTS
 from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.plan import FlightPlan
 
@@ -219,6 +220,17 @@ def test_a_rotor_that_failed_is_the_reason_of_a_landing_without_supervision():
     assert kinds(flight) == ["landed-by-fault"]
     assert "rotor 1" in flight.findings[0].text
     assert 14.0 < flight.findings[0].time < 14.5
+
+
+def test_a_landing_by_fault_is_found_after_more_events_than_are_kept():
+    requests = [{"time": 12.5 + 0.5 * i, "action": ("disable", "enable")[i % 2]} for i in range(18)]
+    fault = {"sensor": "accelerometer", "kind": "nan", "time": 22.0}
+    changes = {"supervision.model": "on", "pushes": [], "phases.land_start": 1e6, "requests": requests}
+    flight = tl.fly(tl.load_mission("iris", {**changes, "sensor_faults": [fault], "mission.duration": 23.0}))
+    assert kinds(flight) == ["landed-by-fault"]
+    times = [time for time, _ in flight.metrics()["events"]]
+    assert len(times) == SLOTS
+    assert times == sorted(times)
 
 
 def test_a_landing_by_fault_is_found_while_the_supervision_also_notes_a_contact():

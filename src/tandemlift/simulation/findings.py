@@ -11,7 +11,7 @@ from tandemlift.core.phases import IDLE, LAND, LIFT, REASONS, STOPPED
 from tandemlift.core.vector import Absent, dot, total
 from tandemlift.missions.outcomes import FindingsTable, Promise, promise_of
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceState
-from tandemlift.parts.guidance.supervision import ALARM, CONTACT, PHASE, SupervisionState
+from tandemlift.parts.guidance.supervision import ALARM, CONTACT, PHASE, SLOTS, SupervisionState
 from tandemlift.parts.interaction.requests import RequestTable
 from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.simulation.loop.detectors import Detectors
@@ -226,12 +226,14 @@ EventCode = tuple[int, int, int, int]  # phase, alarm, failed check, contact
 
 
 def supervision_events(flight_state: FlightState) -> list[tuple[float, EventCode]]:
-    """Time [s] and content of each event of the supervision, in the order of time; none without supervision."""
+    """Time [s] and content of the last events of the supervision, in the order of time; none without supervision."""
     supervising = getattr(flight_state.memory.guidance, "supervision", None)
     if not isinstance(supervising, SupervisionState):
         return []
     log = supervising.events
-    return [(t, _event(code)) for t, code in zip(log.time, log.code, strict=True)][: int(log.count)]
+    kept = [(t, _event(code)) for t, code in zip(log.time, log.code, strict=True)]
+    oldest = int(log.count) - SLOTS
+    return kept[oldest:] + kept[:oldest] if oldest >= 0 else kept[: int(log.count)]
 
 
 def _event(code: float) -> EventCode:

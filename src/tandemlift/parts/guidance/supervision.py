@@ -68,8 +68,14 @@ class Supervision(NamedTuple):
     slots: NumberSet
 
 
+SLOTS = 16  # events that are kept: the last ones
+
+
 class EventLog(NamedTuple):
-    """Memory of events: their times [s] and codes, sets; their number; the last code, and the failed check in it."""
+    """Memory of the last events: their times [s] and codes, sets; the last code, and the failed check in it.
+
+    `count` is their number; from `SLOTS` on, that of the next slot to be filled is added, and the oldest one goes.
+    """
 
     time: NumberSet
     code: NumberSet
@@ -194,9 +200,9 @@ def supervision_output(
 
 
 @elementwise
-def filled_slot(old: Number, slot: Number, count: Number, new: Number, value: Number) -> Number:
-    """A slot of the log, with a value if it is the next one and there is a new event (1)."""
-    return where(new > 0.0, where(slot == count, value, old), old)
+def filled_slot(old: Number, slot: Number, following: Number, new: Number, value: Number) -> Number:
+    """A slot of the log, with a value if it is the one to be filled next and there is a new event (1)."""
+    return where(new > 0.0, where(slot == following, value, old), old)
 
 
 @law
@@ -207,11 +213,12 @@ def with_event(k: Supervision, m: EventLog, now: Number, failed_check: Number, t
     other = where(failed_check > 0.0, where(failed_check == m.failed_check, 0.0, 1.0), 0.0)
     new = maximum(changed, other)
     check = where(new > 0.0, failed_check, m.failed_check)
-    code = now + check
+    code, count = now + check, m.count + new
+    slot = m.count - where(m.count < SLOTS, 0.0, SLOTS)
     return EventLog(
-        time=filled_slot(m.time, k.slots, m.count, new, t),
-        code=filled_slot(m.code, k.slots, m.count, new, code),
-        count=m.count + new,
+        time=filled_slot(m.time, k.slots, slot, new, t),
+        code=filled_slot(m.code, k.slots, slot, new, code),
+        count=where(count < 2.0 * SLOTS, count, SLOTS),
         last=code,
         failed_check=check,
     )

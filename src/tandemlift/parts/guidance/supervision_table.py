@@ -21,7 +21,7 @@ from tandemlift.parts.guidance.fault_detection import (
     SupervisionLimits,
 )
 from tandemlift.parts.guidance.preflight_checks import ChecksTable, PreflightChecks
-from tandemlift.parts.guidance.supervision import EventLog, Supervision, SupervisionState
+from tandemlift.parts.guidance.supervision import SLOTS, EventLog, Supervision, SupervisionState
 from tandemlift.parts.mechanics.rigid_body import InitialTable, State
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -72,9 +72,6 @@ class SupervisionTable(Table):
     fence: FenceTable = FenceTable()
     limits: LimitsTable = LimitsTable()
     reactions: ReactionsTable = ReactionsTable()
-
-
-SLOTS = 16  # largest number of events
 
 
 def _checks(c: ChecksTable, vehicle: Vehicle) -> PreflightChecks:
