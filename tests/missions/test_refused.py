@@ -30,6 +30,7 @@ SUPERVISION = [  # changes of mission iris, and a part of the refusal
     ({**WATCHED, "crash.tilt": 0.9, "promise.tilt": 0.3}, "crash.tilt = 0.9: must be above supervision.limits.tilt"),
     ({**WATCHED, "crash.fence_margin": 0.2}, "crash.fence_margin = 0.2: must be at least supervision.fence.margin"),
     ({**WATCHED, "supervision.fence.low": [-9.0, -9.0, 1.5]}, "starts 1.47 m outside supervision.fence"),
+    ({**WATCHED, "supervision.fence.high": [9.0, 9.0, 0.5]}, "phases.height = 1: the lift ends at 1.03 m, above"),
 ]
 
 PROMISES = [

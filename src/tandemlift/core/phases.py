@@ -25,7 +25,9 @@ PHASES = (
     Phase("land", "on", "compensated", "descends, at most at `compliance.max_descent_speed`"),
     Phase("hold", "on", "compensated", "brakes and stays in place"),
     Phase("stopped", "off", "ignored", "stays at the vehicle"),
-    Phase("contact", "on", "followed along and away from the wall, and compensated", "stays outside the wall"),
+    Phase(
+        "contact", "on", "followed along the wall (a guard: away from it, too); compensated", "stays outside the wall"
+    ),
     Phase("limited", "on", "compensated", "brakes and stays in place, as the vehicle cannot follow"),
 )
 PHASE_NAMES = tuple(phase.name for phase in PHASES)

@@ -73,7 +73,7 @@ METRIC_GROUPS: tuple[MetricGroup, ...] = (
             "command_at_start": Metric(
                 "N, N m", "commanded thrust U1 and moments U2, U3, U4 at t = 0", INPUTS, ("N", "N m", "N m", "N m")
             ),
-            "outcome": Metric("", "outcome: `landed`, `flying`, `not-lifted`, `crashed`, `diverged`"),
+            "outcome": Metric("", "outcome: `landed`, `flying`, `not-lifted`, `crashed`, `diverged`, `interrupted`"),
             "findings": Metric(
                 "", "findings: a list of [time in s, kind, text]; `flight.findings` has place, number and remedy"
             ),

@@ -82,7 +82,7 @@ def refusals(m: Mission) -> Iterator[CheckResult]:
     yield from policy_checks(m.compliance.policy, m.admittance.mass, m.admittance.damping, guidance, step)
     yield from contact_checks(m.contact, guidance, s.model, m.pilot.push)
     yield from supervision.limit_checks(m.supervision)
-    yield from outcomes.fence_crash_checks(m.crash, m.supervision, m.initial)
+    yield from outcomes.fence_crash_checks(m.crash, m.supervision, m.initial, m.phases.height)
     intervals = {"sensors.interval": s.interval, "sensors.motion.interval": s.motion.interval}
     yield from supervision.watchdog_checks(m.supervision, intervals, step)
     yield from sensors.sensor_fault_checks(m.sensor_faults, s, count)

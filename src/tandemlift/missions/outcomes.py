@@ -219,8 +219,10 @@ class FindingsTable(Table):
     )
 
 
-def fence_crash_checks(c: CrashTable, s: SupervisionTable, initial: InitialTable) -> Iterator[CheckResult]:
-    """Check for a crash limit that is reached before the supervision may react."""
+def fence_crash_checks(
+    c: CrashTable, s: SupervisionTable, initial: InitialTable, height: float
+) -> Iterator[CheckResult]:
+    """Check for a crash limit that is reached before the supervision may react, and a lift out of the fence."""
     if s.model == "none":
         return
     if c.tilt <= s.limits.tilt:
@@ -234,6 +236,12 @@ def fence_crash_checks(c: CrashTable, s: SupervisionTable, initial: InitialTable
         yield refused(
             f"crash.fence_margin = {c.fence_margin}: the vehicle starts {away:.3g} m outside supervision.fence, which "
             "is a crash; must be larger, or the fence must hold initial.position"
+        )
+    top = initial.position[2] + height
+    if top > s.fence.high[2]:
+        yield refused(
+            f"phases.height = {height:g}: the lift ends at {top:.3g} m, above supervision.fence.high.2 = "
+            f"{s.fence.high[2]:g}, which does not act in a lift; must be lower, or the fence higher"
         )
 
 

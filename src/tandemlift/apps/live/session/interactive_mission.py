@@ -14,6 +14,7 @@ NEVER = 1e6  # s
 SPRING = {"model": "virtual-hand", "stiffness": 6.0, "damping": 2.0, "lag": 0.08, "max_force": 4.0}  # N/m, N s/m, s, N
 ALWAYS: dict[str, Any] = {
     "pushes": [],
+    "requests": [],
     "mission.duration": MAX_DURATION,
     "phases.land_start": NEVER,
     "admittance.feel": None,  # mass and damping, which it comes to, are changed in flight
