@@ -13,6 +13,7 @@ from tandemlift.apps.live.session.page_messages import PAGE_MESSAGES, CompareMes
 from tandemlift.apps.live.session.session import Session
 from tandemlift.compiler.machine_code import code
 from tandemlift.core.caching import LastUsed
+from tandemlift.missions import changed
 
 
 def test_a_flight_that_is_over_says_so_and_changes_no_more(session):
@@ -52,8 +53,9 @@ def test_what_was_flown_is_saved_under_its_name_and_flies_again_and_a_session_of
     recorded = tl.load_mission(tmp_path / "mine" / "recorded.toml")
     flown = tl.Flight.load(tmp_path / "mine" / "flight.npz")
     np.testing.assert_array_equal(tl.fly(recorded)["position"], flown["position"])
-    by_hand = interactive_mission(recorded)
+    by_hand = interactive_mission(changed(recorded, "requests", [{"time": 20.0, "action": "land"}]))
     assert (by_hand.person.model, by_hand.person.recording, by_hand.changes) == ("virtual-hand", None, ())
+    assert by_hand.requests == ()
 
 
 def test_before_it_is_compiled_the_vehicle_is_seen_where_it_will_begin(tmp_path):
