@@ -122,6 +122,30 @@ def test_a_controller_in_plain_python_is_asked_once_a_step_and_once_at_the_end(p
     assert same(stepped(sim).flight(), flown)
 
 
+@pytest.mark.parametrize(("engine", "part"), [("compiled", "fly"), ("mujoco", "decide"), ("mujoco", "complete")])
+def test_ctrl_c_in_a_step_loses_or_repeats_none(engine, part, monkeypatch):
+    """It comes as soon as machine code returns; a step of another engine that has only begun ends the flight."""
+    sim, flown = (tl.Simulation(load("one-push", **{"mission.duration": 0.3}), engine) for _ in range(2))
+    sim.step(steps=100)
+    held = sim._stepper.code.held
+
+    def interrupted(address, run=held[part]):
+        run(address)
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setitem(held, part, interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            sim.step()
+    if part == "decide":
+        with pytest.raises(tl.InputError, match=r"interrupted at 0.1 s: KeyboardInterrupt; reset\(\) begins anew"):
+            sim.step()
+        sim.reset()
+    else:
+        assert sim.k == 101
+    assert same(stepped(sim).flight(), stepped(flown).flight())
+
+
 # what a caller adds
 
 
