@@ -86,10 +86,10 @@ class Weightless(NamedTuple):
     weight: float
 
 
-class Asked(NamedTuple):
-    """Its memory: how often it was asked."""
+class Asked:
+    """Its memory, which it changes in place: how often it was asked."""
 
-    times: float
+    times = 0
 
 
 @pytest.fixture
@@ -101,9 +101,10 @@ def plain_python():
 
     @control.register(Weightless, compiled=False)
     def call(gains, memory, measured, reference):
-        return Command(Wrench(gains.weight + 1e-3 * memory.times, ZERO), ZERO), Asked(memory.times + 1.0)
+        memory.times += 1
+        return Command(Wrench(gains.weight + 1e-3 * memory.times, ZERO), ZERO), memory
 
-    register("plain-python", Settings)(lambda s, vehicle, step: (Weightless(vehicle.mass * GRAVITY), Asked(0.0)))
+    register("plain-python", Settings)(lambda s, vehicle, step: (Weightless(vehicle.mass * GRAVITY), Asked()))
     yield "plain-python"
     CONTROLLERS.pop("plain-python")
     control.table.pop(Weightless)

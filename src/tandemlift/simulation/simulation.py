@@ -90,6 +90,7 @@ class Simulation:
         if seed is not None:
             table = self.mission.mission.model_copy(update={"seed": checked_seed(seed)})
             self.mission = self.mission.model_copy(update={"mission": table})
+        if seed is not None or self._p.interpreted is not None:  # plain Python may have changed its memory in place
             self._prepare()
         self._begin()
         return self.state
