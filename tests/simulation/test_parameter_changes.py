@@ -70,6 +70,25 @@ def test_another_controller_takes_over_in_flight():
     assert np.abs(other["thrust"] - from_the_start["thrust"])[late].max() < 0.05
 
 
+def test_limits_that_change_in_flight_are_those_in_the_report():
+    push = {"force": [25.0, 0.0, 0.0], "time": 2.0, "sigma": 0.3}
+    limits = {"crash.tilt": 0.4, "promise.tilt": 0.2}
+    changes = [{"time": 0.5, "key": key, "value": value} for key, value in limits.items()]
+    common = {
+        "mission.duration": 4.0,
+        "phases.lift_duration": 1.0,
+        "promise.settling_time": 0.0,
+        "promise.tilt": 0.1,
+        "pushes": [push],
+    }
+    first, later = (
+        tl.fly(tl.load_mission("one-push", {**common, **given})) for given in (limits, {"changes": changes})
+    )
+    assert later.ending == first.ending
+    assert later.findings == first.findings
+    assert {f.limit for f in later.findings if f.kind == "off-track"} == {0.2}
+
+
 def test_missions_that_change_fly_among_many_as_alone():
     changing = load([change("admittance.damping", [4.0, 4.0, 4.0])])
     together = tl.fly_many([load(), changing, load()])

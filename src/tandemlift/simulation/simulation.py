@@ -220,7 +220,7 @@ class Simulation:
     @property
     def ending(self) -> Ending | None:
         """The end of a lost flight: quantity, time, value and limit, or a reason; None if it is not lost."""
-        return ending_of(self._p, self._stepper.flight_state, self.k, self._interruption)
+        return ending_of(self._stepper.p, self._stepper.flight_state, self.k, self._interruption)
 
     @property
     def refusals(self) -> Refusals:
@@ -284,6 +284,7 @@ class Simulation:
             last=last,
             wall=self._wall,
             interruption=self._interruption,
+            now=self._stepper.p,
         )
 
     def _sample_here(self) -> Array | None:
