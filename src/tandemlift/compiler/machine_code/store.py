@@ -84,7 +84,8 @@ def read(key: str) -> StoredCode | None:
         handle = os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0))
         with open(handle, "rb") as file:
             entry = _entry(file.read()) if _is_own(os.fstat(handle), stat.S_ISREG) else None
-        os.utime(path) if entry else path.unlink()
+        with contextlib.suppress(OSError):  # of a cache that can only be read
+            os.utime(path) if entry else path.unlink()
         return entry
     except OSError:
         return None
