@@ -363,6 +363,26 @@ def test_what_is_no_measurement_is_refused():
             pilot.step(measurement)
 
 
+def test_without_supervision_a_number_that_is_not_finite_is_refused_and_nothing_remembered():
+    good, memory = np.eye(16)[6], []
+    for given in ({}, {"supervision.model": "on"}):
+        pilot = tl.Pilot(load("iris", **given))
+        pilot.step(good)
+        memory.append(pilot.memory)
+    plain = tl.Pilot(load("iris"))
+    for at, value in ((0, np.nan), (9, np.inf), (15, -np.inf)):
+        bad = good.copy()
+        bad[at] = value
+        with pytest.raises(tl.InputError, match=rf"measurement\[{at}\] = {value}: must be a finite number"):
+            plain.step(bad)
+        pilot.step(bad)
+    with pytest.raises(tl.InputError, match=r"moment\[2\] = nan"):
+        plain.step(good, np.array([0.0, 0.0, np.nan]))
+    plain.step(good)
+    np.testing.assert_array_equal(plain.memory, memory[0])
+    assert np.isfinite(pilot.memory).all()
+
+
 def test_by_hand_it_stops_its_rotors_for_good_when_asked():
     pilot, level = tl.Pilot(tl.load_mission("hover", {"pilot.guidance": "interactive"})), np.zeros(16)
     level[6] = 1.0
