@@ -51,6 +51,12 @@ def test_of_two_ramps_of_one_number_the_later_one_counts():
     np.testing.assert_allclose(flight["reference_velocity"][:, 0], solved.y[0], atol=3e-3)
 
 
+def test_a_mission_that_changes_a_list_has_a_hash():
+    one, two = (load([change("admittance.damping", [8.0, 8.0, 8.0], 5.0, 2.0)]) for _ in range(2))
+    assert hash(one) == hash(two)
+    assert one == two
+
+
 def test_a_change_to_the_same_value_changes_no_bit():
     plain = tl.fly(load())
     same = tl.fly(load([change("admittance.damping", list(plain.mission["admittance"]["damping"]))]))
