@@ -173,6 +173,17 @@ def test_the_self_tests_pass_under_sanitizers_and_on_aarch64(name, tmp_path):
         assert run.stdout.startswith(b"ok"), run.stdout.decode()
 
 
+def test_in_single_precision_its_clock_goes_on_beyond_the_integers_of_a_float(tmp_path):
+    """At 1 kHz these end after 4 h 40 min."""
+    need("gcc")
+    mission = unfused(tl.load_mission("paper"))
+    pilot, last = PilotInC(mission, tmp_path, code_texts(mission, True), single=True), 2**24
+    pilot.numbers[:1].view(np.uint32)[0] = last
+    for count in (last + 1, last + 2):
+        pilot.step(np.eye(16)[6])
+        assert pilot.numbers[:1].view(np.uint32)[0] == count
+
+
 @pytest.mark.targets
 @pytest.mark.parametrize("name", ["paper", "iris"])
 def test_in_single_precision_it_flies_within_a_thousandth_of_the_range_of_thrusts(name, tmp_path):

@@ -233,15 +233,23 @@ def test_a_flight_ends_with_its_mission(fmi, fmu):
 
 
 @BOTH
-def test_a_vehicle_goes_on_beyond_the_mission_until_it_falls(fmi, fmu):
-    mission = tl.load_mission("hover").mission
-    vehicle = Instance(fmu("hover", "vehicle", fmi))
-    vehicle.set("thrusts", flown("hover")["rotor_thrusts"][0])
-    assert vehicle.begin() == OK
-    assert vehicle.step(0.0, 2.0 * mission.duration) == OK
-    vehicle.set("thrusts", np.zeros(8))
-    assert vehicle.step(2.0 * mission.duration, mission.duration) == DISCARD
-    assert "a crash or divergence" in vehicle.said[-1]
+def test_a_vehicle_goes_on_beyond_the_mission_until_it_falls_and_shows_where(fmi, fmu):
+    """In one step of the importer the outputs at its end are those of many steps."""
+    duration, ends = tl.load_mission("hover").mission.duration, []
+    for size in (duration, 0.001):
+        vehicle, k = Instance(fmu("hover", "vehicle", fmi)), 0
+        vehicle.set("thrusts", flown("hover")["rotor_thrusts"][0])
+        assert vehicle.begin() == OK
+        assert vehicle.step(0.0, 2.0 * duration) == OK
+        vehicle.set("thrusts", np.zeros(8))
+        while (status := vehicle.step(2.0 * duration + k * size, size)) == OK:
+            k, place = k + 1, vehicle.number("position", 3)
+        assert status == DISCARD
+        assert "a crash or divergence" in vehicle.said[-1]
+        ends.append(vehicle.number("position", 3))
+    assert k > 100
+    assert same(place, ends[1])
+    assert same(ends[0], ends[1])
 
 
 def test_another_token_and_unknown_references_are_refused(fmu):

@@ -82,7 +82,11 @@ def test_changes_apply_in_their_order():
     assert mission.pushes == ()
 
 
-def test_a_table_merges_and_a_list_replaces():
+def test_a_table_merges_also_one_in_a_list_and_a_list_replaces():
+    before = load_mission("off-centre-push").pushes[0]
+    push = load_mission("off-centre-push", {"pushes.0": {"force": [1.0, 0.0, 0.0]}}).pushes[0]
+    assert push == before.model_copy(update={"force": (1.0, 0.0, 0.0)})
+    assert any(before.point)
     mission = load_mission(
         "paper", {"phases": {"height": 2.0}, "pushes": [{"force": [1, 0, 0], "time": 3, "sigma": 1}]}
     )

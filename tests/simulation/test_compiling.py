@@ -72,8 +72,8 @@ print(len(made), flight["thrust"].sum().hex(), tl.__file__)
 def test_an_edit_of_any_source_changes_the_key(monkeypatch):
     value = FlightPlan(tl.load_mission("one-push")).model
     before, content = key_of(value), store.content
-    assert len(sources(value)) > 50
-    for path in sources(value)[::8]:
+    assert len(sources()) > 50
+    for path in sources()[::8]:
         edit = lambda p, edited=path: content(p) + b"#" * (p == edited)  # noqa: E731
         monkeypatch.setattr(store, "content", edit)
         assert key_of(value) != before
@@ -146,7 +146,7 @@ def undefined(code):
 
 
 def test_every_law_that_a_loop_may_be_made_of_is_in_its_key():
-    known = set(sources(()))
+    known = set(sources())
     own = {function for function in LAWS if function.__module__.startswith("tandemlift.")}
     own = {function for function in own if not function.__module__.endswith(".outcome")}  # after a flight
     own = {function for function in own if ".codegen." not in function.__module__}  # of C alone

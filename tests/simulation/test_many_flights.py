@@ -39,7 +39,7 @@ def test_a_mixture_of_variants_and_lengths_comes_back_in_the_order_given():
         missions.append(spread("paper", 8)[i])
         missions.append(tl.load_mission("one-push", {"mission.duration": 12.0 + i}))
         missions.append(tl.load_mission("one-push", {"pushes.0.point": [0.0, 0.1 * i + 0.1, 0.0]}))
-    together = tl.fly_many(missions, threads=2)
+    together = tl.fly_many(missions, threads=np.int64(2))
     for mission, flight in zip(missions, together, strict=True):
         assert flight.mission["mission"]["duration"] == mission.mission.duration
     for i in (0, 4, 5, 16, 17):

@@ -51,6 +51,12 @@ def test_of_two_ramps_of_one_number_the_later_one_counts():
     np.testing.assert_allclose(flight["reference_velocity"][:, 0], solved.y[0], atol=3e-3)
 
 
+def test_a_mission_that_changes_a_list_has_a_hash():
+    one, two = (load([change("admittance.damping", [8.0, 8.0, 8.0], 5.0, 2.0)]) for _ in range(2))
+    assert hash(one) == hash(two)
+    assert one == two
+
+
 def test_a_change_to_the_same_value_changes_no_bit():
     plain = tl.fly(load())
     same = tl.fly(load([change("admittance.damping", list(plain.mission["admittance"]["damping"]))]))
@@ -68,6 +74,25 @@ def test_another_controller_takes_over_in_flight():
     assert np.abs(other["position"] - other["reference_position"])[-1].max() < 0.05
     late = plain.time > 11.0
     assert np.abs(other["thrust"] - from_the_start["thrust"])[late].max() < 0.05
+
+
+def test_limits_that_change_in_flight_are_those_in_the_report():
+    push = {"force": [25.0, 0.0, 0.0], "time": 2.0, "sigma": 0.3}
+    limits = {"crash.tilt": 0.4, "promise.tilt": 0.2}
+    changes = [{"time": 0.5, "key": key, "value": value} for key, value in limits.items()]
+    common = {
+        "mission.duration": 4.0,
+        "phases.lift_duration": 1.0,
+        "promise.settling_time": 0.0,
+        "promise.tilt": 0.1,
+        "pushes": [push],
+    }
+    first, later = (
+        tl.fly(tl.load_mission("one-push", {**common, **given})) for given in (limits, {"changes": changes})
+    )
+    assert later.ending == first.ending
+    assert later.findings == first.findings
+    assert {f.limit for f in later.findings if f.kind == "off-track"} == {0.2}
 
 
 def test_missions_that_change_fly_among_many_as_alone():

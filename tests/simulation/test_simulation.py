@@ -86,10 +86,10 @@ class Weightless(NamedTuple):
     weight: float
 
 
-class Asked(NamedTuple):
-    """Its memory: how often it was asked."""
+class Asked:
+    """Its memory, which it changes in place: how often it was asked."""
 
-    times: float
+    times = 0
 
 
 @pytest.fixture
@@ -101,9 +101,10 @@ def plain_python():
 
     @control.register(Weightless, compiled=False)
     def call(gains, memory, measured, reference):
-        return Command(Wrench(gains.weight + 1e-3 * memory.times, ZERO), ZERO), Asked(memory.times + 1.0)
+        memory.times += 1
+        return Command(Wrench(gains.weight + 1e-3 * memory.times, ZERO), ZERO), memory
 
-    register("plain-python", Settings)(lambda s, vehicle, step: (Weightless(vehicle.mass * GRAVITY), Asked(0.0)))
+    register("plain-python", Settings)(lambda s, vehicle, step: (Weightless(vehicle.mass * GRAVITY), Asked()))
     yield "plain-python"
     CONTROLLERS.pop("plain-python")
     control.table.pop(Weightless)
@@ -120,6 +121,30 @@ def test_a_controller_in_plain_python_is_asked_once_a_step_and_once_at_the_end(p
     assert np.ptp(np.diff(flown["thrust"])) < 1e-9
     sim.reset()
     assert same(stepped(sim).flight(), flown)
+
+
+@pytest.mark.parametrize(("engine", "part"), [("compiled", "fly"), ("mujoco", "decide"), ("mujoco", "complete")])
+def test_ctrl_c_in_a_step_loses_or_repeats_none(engine, part, monkeypatch):
+    """It comes as soon as machine code returns; a step of another engine that has only begun ends the flight."""
+    sim, flown = (tl.Simulation(load("one-push", **{"mission.duration": 0.3}), engine) for _ in range(2))
+    sim.step(steps=100)
+    held = sim._stepper.code.held
+
+    def interrupted(address, run=held[part]):
+        run(address)
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setitem(held, part, interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            sim.step()
+    if part == "decide":
+        with pytest.raises(tl.InputError, match=r"interrupted at 0.1 s: KeyboardInterrupt; reset\(\) begins anew"):
+            sim.step()
+        sim.reset()
+    else:
+        assert sim.k == 101
+    assert same(stepped(sim).flight(), stepped(flown).flight())
 
 
 # what a caller adds
@@ -336,6 +361,26 @@ def test_what_is_no_measurement_is_refused():
     for measurement in (np.zeros(15), np.zeros((1, 16)), np.zeros(16, dtype=np.float32), [0.0] * 16, None):
         with pytest.raises(tl.InputError, match=r"must be a float64 array of shape \(16,\)"):
             pilot.step(measurement)
+
+
+def test_without_supervision_a_number_that_is_not_finite_is_refused_and_nothing_remembered():
+    good, memory = np.eye(16)[6], []
+    for given in ({}, {"supervision.model": "on"}):
+        pilot = tl.Pilot(load("iris", **given))
+        pilot.step(good)
+        memory.append(pilot.memory)
+    plain = tl.Pilot(load("iris"))
+    for at, value in ((0, np.nan), (9, np.inf), (15, -np.inf)):
+        bad = good.copy()
+        bad[at] = value
+        with pytest.raises(tl.InputError, match=rf"measurement\[{at}\] = {value}: must be a finite number"):
+            plain.step(bad)
+        pilot.step(bad)
+    with pytest.raises(tl.InputError, match=r"moment\[2\] = nan"):
+        plain.step(good, np.array([0.0, 0.0, np.nan]))
+    plain.step(good)
+    np.testing.assert_array_equal(plain.memory, memory[0])
+    assert np.isfinite(pilot.memory).all()
 
 
 def test_by_hand_it_stops_its_rotors_for_good_when_asked():

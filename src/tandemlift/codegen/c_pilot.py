@@ -39,9 +39,9 @@ class PilotFile:
 
     def header(self) -> str:
         """The text of the header."""
-        return self.file.filled(
-            "pilot.h", ROTORS=str(len(self.thrusts)), TYPES=self.file.typedefs(self.public, described)
-        )
+        types = self.file.typedefs(self.public, described)
+        types = types.replace("    float samples;", "    uint32_t samples;")  # a float counts to 2²⁴ only
+        return self.file.filled("pilot.h", ROTORS=str(len(self.thrusts)), TYPES=types)
 
     def source(self) -> str:
         """The text of the source."""
@@ -52,7 +52,7 @@ class PilotFile:
 
     def _write_sample(self) -> None:
         unit, x = self.file.unit, self.sampler
-        symbols = [*x.after, *x.thrusts]
+        symbols = [*x.after[1:], *x.thrusts]
         roots = [s.node for s in [*symbols, *(x.limits.symbols if x.limits else [])]]
         write_functions(unit, unit.reached(x.graph, roots))
         if x.limits:
@@ -65,6 +65,8 @@ class PilotFile:
             body.argument("input", x.graph.inputs("pilot_input", INPUT), pointer=True),
             body.argument("dt", x.graph.input("dt")),
         ]
+        if self.file.real == "float":
+            body.know(x.graph.inputs("pilot", self.start).samples, "(float)pilot->samples")
         if x.limits:
             write_limits(body, x.limits)
         body.compute([s.node for s in symbols])
@@ -72,7 +74,7 @@ class PilotFile:
         last = [f"*thrusts = {body.value(rebuilt(iter(x.thrusts), self.thrusts))};"]
         if leaves(self.start.memory):
             last.append(f"pilot->memory = {body.value(after.memory)};")
-        last.append(f"pilot->samples = {body.value(after.samples)};")
+        last.append("pilot->samples += 1;")
         given.append(f"{unit.type_of(self.thrusts)} *thrusts")
         unit.texts.append(function(FunctionHead(SAMPLE, "void", "sample", given), body.made, "\n".join(last)))
 

@@ -83,8 +83,8 @@ def module_of(mission: Mission, target: str, functions: Functions | None = None)
 def kept(mission: Mission, what: str, make: Callable[[], bytes] = bytes) -> bytes:
     """What is made of a mission by this package alone: from the cache, or else made, and kept there.
 
-    The key has the mission with all numbers of its flight, which a controller may compute from other files, and the
-    sources of this package and of the controller.
+    The key has the mission with all numbers of its flight, and the sources of this package. With a user's controller
+    nothing is kept, because its law may read numbers from any file.
 
     Args:
         mission: from `load_mission`.
@@ -97,8 +97,7 @@ def kept(mission: Mission, what: str, make: Callable[[], bytes] = bytes) -> byte
     built = assemble(portable_mission(mission))
     numbers = [np.array(flat(built.model)), *built.tables, built.delays, built.seeds]
     facts = tables_of(mission), hashlib.sha256(b"".join(n.tobytes() for n in numbers)).hexdigest()
-    files = [*store.PACKAGE.rglob("*.py"), *store.sources(built.model)]
-    key = store.key_of(built.model, what, facts, files=files)
+    key = store.key_of(built.model, what, facts, files=store.PACKAGE.rglob("*.py"))
     entry = store.read(key) or store.StoredCode({}, make())
     if entry.code:
         store.write(key, entry)

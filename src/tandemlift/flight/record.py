@@ -200,8 +200,7 @@ class Flight(Mapping[str, Array]):
         """Read a flight that `save` wrote, from its file or from the folder of a run.
 
         Raises:
-            InputError: the file is missing, damaged, no flight, of a newer format, or has an unknown mission key or
-                channel.
+            InputError: the file is missing, damaged, no flight, of another format, or has an unknown channel.
         """
         path = Path(path)
         path = path / FLIGHT_FILE if path.is_dir() else path

@@ -28,7 +28,8 @@ def _with(at: Any, parts: list[str], value: object, key: str) -> Any:
             entries = f"a number from 0 to {len(at) - 1}" if at else "left out, because the list is empty"
             raise InputError(f"{key} = {shown(value)}: {part!r} must be {entries}")
         i = int(part)
-        return [*at[:i], _with(at[i], rest, value, key) if rest else value, *at[i + 1 :]]
+        entry = _with(at[i], rest, value, key) if rest else merge({part: at[i]}, {part: value})[part]
+        return [*at[:i], entry, *at[i + 1 :]]
     if not isinstance(at, dict):
         above = key.partition(": ")[2].removesuffix(".".join(parts)).rstrip(".")
         raise InputError(f"{key} = {shown(value)}: {above} = {shown(at)} has no keys of its own")

@@ -100,6 +100,11 @@ class MissionTable(Table):
 describe_key = key  # `[[changes]]` has a key of that name
 
 
+def _hashable(value: Any) -> Any:
+    """A value whose lists are tuples."""
+    return tuple(map(_hashable, value)) if isinstance(value, list) else value
+
+
 class ChangeTable(Table):
     """`[[changes]]`: a key that takes another value in flight; one table for each change, in the order of their times.
 
@@ -113,7 +118,9 @@ class ChangeTable(Table):
         ..., "s", "start of the change, rounded to a whole step", rule="not before the change above it", example=10.0
     )
     key: str = describe_key(..., None, "dotted key that changes, as for --set", example="admittance.damping")
-    value: Any = describe_key(..., None, "new value of the key", rule="as the key takes it", example=[4.0, 4.0, 4.0])
+    value: Annotated[Any, AfterValidator(_hashable)] = describe_key(
+        ..., None, "new value of the key", rule="as the key takes it", example=[4.0, 4.0, 4.0]
+    )
     duration: NonNegative = describe_key(0.0, "s", "time within which numbers change linearly to the new value")
 
 

@@ -16,6 +16,7 @@ from tandemlift.core.types import Progress, leaves, unflat
 from tandemlift.flight.record import Flight
 from tandemlift.missions import MissionLike, mission_of
 from tandemlift.missions.recording import engine_of
+from tandemlift.simulation.caller_values import count_of
 from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import LANES, FlightMemory
@@ -140,10 +141,9 @@ def fly_many(
         raise InputError(f"missions = {str(missions)!r}: must be a list, such as [{str(missions)!r}]")
     if keep not in ("flights", "metrics"):
         raise InputError(f"keep = {keep!r}: must be 'flights' or 'metrics'")
-    if threads is not None and (not isinstance(threads, int) or threads < 1):
-        raise InputError(f"threads = {threads!r}: must be a whole number of at least 1")
+    threads = (os.cpu_count() or 1) if threads is None else count_of("threads", threads)
     with progress_or_own("Flown", progress, "flights") as shown:
-        return _flown_by_threads(_FlightGroups(missions, refusals, shown), keep, threads or os.cpu_count() or 1)
+        return _flown_by_threads(_FlightGroups(missions, refusals, shown), keep, threads)
 
 
 def _flown_by_threads(groups: _FlightGroups, keep: str, count: int) -> list[Any]:

@@ -20,7 +20,7 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.pilot.pilot import PilotInput
 from tandemlift.parts.pilot.refusals import refusals_of
 from tandemlift.simulation.preparation.memory import aligned
-from tandemlift.simulation.preparation.pilot_sampling import PilotData, pilot_code
+from tandemlift.simulation.preparation.pilot_sampling import MEASURED, PilotData, pilot_code
 from tandemlift.simulation.preparation.start_pilot import start_pilot
 from tandemlift.simulation.preparation.traced_assembly import assembled_by_graph
 
@@ -100,7 +100,8 @@ class Pilot:
             Thrust of every rotor [N] (4N,), the same array each time.
 
         Raises:
-            InputError: the measurement is not a float64 array of 16 numbers.
+            InputError: the measurement is not a float64 array of 16 numbers; or, without supervision, a number of it
+                or of the moment is not finite. No sample is taken then.
         """
         try:
             self._measurement[:] = measurement
@@ -113,7 +114,10 @@ class Pilot:
         requests = land, lift, stop, enabled
         if requests != self._last_requests:
             self._requests[:] = self._last_requests = requests
-        self._sample()
+        if self._sample():
+            at = int(np.flatnonzero(~np.isfinite(self._input[:MEASURED]))[0])
+            name = f"measurement[{at}]" if at < 16 else f"moment[{at - 16}]"
+            raise InputError(f"{name} = {self._input[at]}: must be a finite number without supervision")
         return self.thrusts
 
     @property

@@ -170,7 +170,8 @@ class RecordedFlight:
     @property
     def ending(self) -> Ending | None:
         """The reason if it was stopped as crashed, diverged or interrupted, or None."""
-        return ending_of(self._p, self._stepper.flight_state, self.step, self.interruption) if self.lost else None
+        stepper = self._stepper
+        return ending_of(stepper.p, stepper.flight_state, self.step, self.interruption) if self.lost else None
 
     def logged(self) -> tuple[Array, Array]:
         """Times [s] and rows of the log so far; rows that are written are never written again."""
@@ -183,12 +184,12 @@ class RecordedFlight:
 
     def findings(self, numbers: Array) -> tuple[Finding, ...]:
         """The findings until it had these numbers, which may be computed during the flight."""
-        return findings_of(self._p, unflat(numbers, self._like), self.step, FLYING)
+        return findings_of(self._stepper.p, unflat(numbers, self._like), self.step, FLYING)
 
     @property
     def ending_place(self) -> Vec3:
         """The place at which it was stopped [m, world]."""
-        return place_of(self._p, self._stepper.flight_state)
+        return place_of(self._stepper.p, self._stepper.flight_state)
 
     def number(self, *path: str) -> float:
         """A number of the flight's memory, by its path from `FlightState`."""
@@ -292,5 +293,5 @@ class RecordedFlight:
             steps,
             self._log[: steps // p.every + 1],  # rows that are written are never written again
             np.full(leaves(p.sample), np.nan) if self.lost else self.sample.copy(),
-            *(self._wall, self.interruption),
+            *(self._wall, self.interruption, self._stepper.p),
         )

@@ -50,6 +50,7 @@ class RawResult:
         last: the last sample.
         wall: computing time [s].
         interruption: the reason of an interruption, or None.
+        now: the plan with the changes made in flight, whose limits count; None if there was none.
     """
 
     flight_state: FlightState
@@ -59,6 +60,7 @@ class RawResult:
     last: Array
     wall: float
     interruption: Ending | None = None
+    now: FlightPlan | None = None
 
     @property
     def lost(self) -> bool:
@@ -96,13 +98,10 @@ def metrics_of(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     formed |= _detection_metrics(p, flown)
     formed = {name: _finite_or_none(value) for name, value in formed.items()}
     highest = max(early.highest, late.highest)
-    ending = ending_of(p, flown.flight_state, flown.step, flown.interruption)
-    formed["outcome"] = (
-        ending.outcome if ending else outcome_of(p, flown.flight_state, last, highest, flown.step * p.dt)
-    )
-    formed["findings"] = [
-        [f.time, f.kind, f.text] for f in findings_of(p, flown.flight_state, flown.step, formed["outcome"])
-    ]
+    now, state = flown.now or p, flown.flight_state
+    ending = ending_of(now, state, flown.step, flown.interruption)
+    formed["outcome"] = ending.outcome if ending else outcome_of(now, state, last, highest, flown.step * p.dt)
+    formed["findings"] = [[f.time, f.kind, f.text] for f in findings_of(now, state, flown.step, formed["outcome"])]
     formed["failure"] = str(ending or FAILURES.get(formed["outcome"], ""))
     return {**formed, "steps": flown.step, "wall_s": flown.wall, "events": events_of(flown.flight_state)}
 
@@ -207,12 +206,13 @@ def flight_of(p: FlightPlan, flown: RawResult, engine: str = "compiled") -> Flig
     """The record of a flight in an engine."""
     logged = len(flown.log) if not flown.lost else -(-flown.step // p.every)
     channels, metrics = dict(channels_of(p.sample, flown.log[:logged])), metrics_of(p, flown)
+    now = flown.now or p
     return Flight(
         time=np.arange(logged, dtype=np.float64) * p.every * p.dt,
         channels=channels,
         mission=portable(tables_of(p.mission)),
         results=metrics,
-        ending=ending_of(p, flown.flight_state, flown.step, flown.interruption),
+        ending=ending_of(now, flown.flight_state, flown.step, flown.interruption),
         version={**versions(engine), "engine": engine},
-        findings=findings_of(p, flown.flight_state, flown.step, metrics["outcome"]),
+        findings=findings_of(now, flown.flight_state, flown.step, metrics["outcome"]),
     )

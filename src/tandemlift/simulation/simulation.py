@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike
 from tandemlift.core.errors import InputError, accepted, shown
 from tandemlift.core.refusals import Refusals
 from tandemlift.core.types import Array, leaves
-from tandemlift.engines.registry import EngineLost
 from tandemlift.flight.channels import DERIVED, Channel, channel_of
 from tandemlift.flight.record import Ending, Flight, interruption
 from tandemlift.missions import MissionLike, mission_of
@@ -91,6 +90,7 @@ class Simulation:
         if seed is not None:
             table = self.mission.mission.model_copy(update={"seed": checked_seed(seed)})
             self.mission = self.mission.model_copy(update={"mission": table})
+        if seed is not None or self._p.interpreted is not None:  # plain Python may have changed its memory in place
             self._prepare()
         self._begin()
         return self.state
@@ -122,7 +122,8 @@ class Simulation:
         Raises:
             InputError: the flight is over, an input is not an array of that many finite numbers, the point is not on
                 the vehicle, or `steps` is not a whole number of at least 1.
-            OSError: the engine in another process is lost; the flight is over.
+            OSError: the engine in another process is lost; the flight is over. It is also over if Ctrl-C or an error
+                stops a step in another engine or in a controller in plain Python.
         """
         if self.over:
             reason = self.ending or f"the flight is over: mission.duration = {self.mission.mission.duration:g} s"
@@ -136,11 +137,18 @@ class Simulation:
                 left -= 1
                 if not left or self.over:
                     break
-        except EngineLost as error:
-            self._interruption = interruption(self.time, error)
+        except BaseException as error:  # the engine is lost, or Ctrl-C
+            self._keep_whole(error)
             raise
         self._wall += time.perf_counter() - began
         return self.state
+
+    def _keep_whole(self, error: BaseException) -> None:
+        """Count an interrupted step that is complete; one that is not, in Python or another engine, ends the flight."""
+        if self._stepper.flight_state.metrics.steps + self._early.steps > self.k:
+            self._log_and_advance()
+        elif self._stepper.by_parts:
+            self._interruption = interruption(self.time, str(error) or type(error).__name__)
 
     def _set_inputs(self, push: Any, thrusts: Any, point: Any, velocity: Any) -> None:
         """Write the caller's inputs of a step."""
@@ -169,7 +177,7 @@ class Simulation:
         """Log the sample of the step just taken, if it is due, and count the step."""
         p, stepper = self._p, self._stepper
         if self.k % p.every == 0:
-            self._rows.append(stepper.row.copy())
+            self._rows[self.k // p.every :] = [stepper.row.copy()]
         self.k, self._end = self.k + 1, None
         if self.k == p.late_step < p.steps:
             (self._early,) = take_metrics(stepper.a, stepper.p.model, 1)
@@ -212,7 +220,7 @@ class Simulation:
     @property
     def ending(self) -> Ending | None:
         """The end of a lost flight: quantity, time, value and limit, or a reason; None if it is not lost."""
-        return ending_of(self._p, self._stepper.flight_state, self.k, self._interruption)
+        return ending_of(self._stepper.p, self._stepper.flight_state, self.k, self._interruption)
 
     @property
     def refusals(self) -> Refusals:
@@ -276,6 +284,7 @@ class Simulation:
             last=last,
             wall=self._wall,
             interruption=self._interruption,
+            now=self._stepper.p,
         )
 
     def _sample_here(self) -> Array | None:

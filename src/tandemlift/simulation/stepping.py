@@ -249,4 +249,4 @@ def fly_stepwise(
                 raise Stopped
             if progress:
                 progress(k, p.steps)
-    return RawResult(stepper.flight_state, early, k, log, last, time.perf_counter() - began, ending)
+    return RawResult(stepper.flight_state, early, k, log, last, time.perf_counter() - began, ending, stepper.p)

@@ -60,6 +60,7 @@ int main(void)
         uint32_t ticks = 0;
         for (int again = 0; again < 40; again++) { /* 40 samples: a tick is then an instruction */
             memcpy(&pilot, VECTOR[i].memory, sizeof VECTOR[i].memory);
+            pilot.samples = VECTOR[i].memory[0]; /* in single precision an integer */
             memcpy(&input, VECTOR[i].input, sizeof input);
             if (again == 0) {
                 paint(below_stack());

@@ -166,6 +166,12 @@ def test_a_reader_sees_whole_entries_alone_while_others_write(cache):
     assert [p.name for p in (cache / "code").iterdir()] == ["key.o"]
 
 
+def test_an_entry_on_a_disk_that_can_only_be_read_is_used(cache, monkeypatch):
+    store.write("key", ENTRY)
+    monkeypatch.setattr(store.os, "utime", fails(errno.EROFS))
+    assert store.read("key") == ENTRY
+
+
 # What cannot be trusted
 
 

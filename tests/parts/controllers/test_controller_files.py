@@ -47,28 +47,36 @@ print(len(made))
 
 
 HELPER = """
+from my_numbers import FACTOR
 from tandemlift.core.law import law
 
 @law
 def scaled(v):
-    return v * 0.9
+    return v * FACTOR
 """
 IMPORTED = "from my_helpers import scaled"
 
 
-def test_a_second_process_finds_the_compiled_law_until_it_or_a_law_that_it_calls_changes(own, tmp_path):
-    """Each process imports both files anew; a comment changes no law."""
+def test_a_second_process_finds_the_compiled_law_until_what_it_computes_changes(own, tmp_path):
+    """Each process imports all files anew; a comment changes no law, but a law called or a number read does."""
     called = ("tilt - attitude.angles", "scaled(tilt - attitude.angles)")
     text = edited(LAW, called, ("class Settings", f"{IMPORTED}\n\n\nclass Settings"))
     folders = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])
     environment = {**os.environ, "TANDEMLIFT_CACHE": str(tmp_path / "cache"), "PYTHONPATH": folders}
     command, made = [sys.executable, "-B", "-c", CACHED, "my_pd.py"], []
-    for file, helper in ((text, HELPER), (text + "\n# edited\n", HELPER), (text, HELPER.replace("0.9", "0.8"))):
+    softer = HELPER.replace("* F", "* 0.5 * F")
+    for file, helper, factor in (
+        (text, HELPER, 0.9),
+        (text + "\n# edited\n", HELPER, 0.9),
+        (text, softer, 0.9),
+        (text, softer, 0.8),
+    ):
         own(file)
         own(helper, "my_helpers.py")
+        own(f"FACTOR = {factor}", "my_numbers.py")
         made.append(int(completed(command, capture_output=True, text=True, env=environment, check=True).stdout))
-    assert made == [1, 0, 1]
-    assert len(list((tmp_path / "cache").rglob("*-quick.o"))) == 2
+    assert made == [1, 0, 1, 1]
+    assert len(list((tmp_path / "cache").rglob("*-quick.o"))) == 3
 
 
 def test_a_law_flies_as_it_was_loaded_and_once_edited_as_edited(own):

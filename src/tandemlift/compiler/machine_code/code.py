@@ -65,7 +65,8 @@ class Code:
     """The functions of a module; each takes the address of a context and returns an integer.
 
     Args:
-        key: hash of everything that determines the code (`compiler.machine_code.store.key_of`).
+        key: hash of everything that determines the code (`compiler.machine_code.store.key_of`); "" if only the module
+            itself tells.
         names: names of its functions.
         write: returns the module as text; called only if no code is on disk.
         best: optimisation level of optimised code.
@@ -87,11 +88,12 @@ class Code:
         best: machine.Level = machine.BEST,
         going: Callable[[], bool] = always,
     ) -> None:
-        self._sources, self._names, self._write, self._best = key, tuple(names), write, best
+        self._sources, self._names = key and f"{key}-module", tuple(names)
+        self._write, self._best = write, best
         self._lock, self._making, self._spent = threading.Lock(), False, 0.0
         self._written: Written | None = None
         self.held, self.free = dict[str, Any](), dict[str, Any]()
-        module = store.read(f"{key}-module")
+        module = store.read(self._sources)
         self._key: str = module.about["key"] if module else ""
         entry = self._stored() or self._quick(going)
         self.about = entry.about
@@ -117,7 +119,7 @@ class Code:
         try:
             written = self._text()
             self._key = store.key_of_module(written.text, written.about)
-            store.write(f"{self._sources}-module", store.StoredCode({"key": self._key}, b""))
+            store.write(self._sources, store.StoredCode({"key": self._key}, b""))
             if entry := self._stored():
                 return entry
             code = _interruptible(lambda: _compiled(written.text, going))

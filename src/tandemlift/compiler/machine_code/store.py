@@ -5,7 +5,8 @@ is right; otherwise it is made anew. The folder keeps the newest `MOST_BYTES`. N
 folder, everything is compiled.
 
 The key of code is a hash of its module as text, the processor and the compiler's version. Which module belongs to what
-sources, layouts of values and versions is an entry of its own, so that code on disk is found without tracing.
+sources, layouts of values and versions is an entry of its own, so that code on disk is found without tracing; of a
+user's law there is none.
 """
 
 from __future__ import annotations
@@ -13,9 +14,7 @@ from __future__ import annotations
 import contextlib
 import functools
 import hashlib
-import inspect
 import json
-import linecache
 import os
 import stat
 import sys
@@ -25,8 +24,6 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tandemlift.compiler.tracer.refusal import is_ours
-from tandemlift.core.law import LAWS
 from tandemlift.core.types import is_value
 
 MAGIC = b"tandemlift machine code 1\n"
@@ -73,8 +70,8 @@ def _is_own(found: os.stat_result, kind: Any) -> bool:
 
 
 def path_of(key: str) -> Path | None:
-    """The file of a key, whether it exists or not."""
-    home = folder()
+    """The file of a key, whether it exists or not; none without a folder or a key."""
+    home = folder() if key else None
     return home and home / f"{key}.o"
 
 
@@ -87,7 +84,8 @@ def read(key: str) -> StoredCode | None:
         handle = os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0))
         with open(handle, "rb") as file:
             entry = _entry(file.read()) if _is_own(os.fstat(handle), stat.S_ISREG) else None
-        os.utime(path) if entry else path.unlink()
+        with contextlib.suppress(OSError):  # of a cache that can only be read
+            os.utime(path) if entry else path.unlink()
         return entry
     except OSError:
         return None
@@ -151,31 +149,15 @@ def classes(value: Any) -> set[type]:
     return own.union(*map(classes, value))
 
 
-def sources(value: Any) -> list[Path]:
-    """All source files that determine the code for values like this one."""
-    own = {p for folder in FOLDERS for p in (PACKAGE / folder).rglob("*.py")}
-    own |= {PACKAGE / f"{name}.py" for name in FILES}
-    theirs = {Path(inspect.getfile(c)) for c in classes(value) if not c.__module__.startswith("tandemlift.")}
-    if theirs:  # a user's laws may call laws of other files
-        files = {Path(law.__code__.co_filename) for law in LAWS if not is_ours(law.__code__)}
-        theirs |= {path for path in files if path.is_file()}
-    return sorted(own | theirs)
+def sources() -> list[Path]:
+    """All source files of this package that determine the code of a flight."""
+    return sorted({p for f in FOLDERS for p in (PACKAGE / f).rglob("*.py")} | {PACKAGE / f"{f}.py" for f in FILES})
 
 
-@functools.lru_cache(maxsize=4096)
-def _content(path: Path, changed: int, size: int) -> bytes:
-    return path.read_bytes()
-
-
+@functools.cache
 def content(path: Path) -> bytes:
-    """Content of a file; of this package that at its first use, of a user's controller its text, for they run."""
-    if path.is_relative_to(PACKAGE):
-        return _content(path, 0, 0)
-    entry: tuple[Any, ...] = linecache.cache.get(str(path), ())
-    if len(entry) == 4 and entry[1] is None:  # put there by `run_controller`, and never taken out
-        return "".join(entry[2]).encode()
-    found = path.stat()
-    return _content(path, found.st_mtime_ns, found.st_size)
+    """Content of a source file at its first use."""
+    return path.read_bytes()
 
 
 def described(value: Any) -> str:
@@ -201,11 +183,17 @@ def key_of(value: Any, *more: Any, files: Iterable[Path] = ()) -> str:
         value: nested, or a tuple of such.
         more: further values that determine the code.
         files: its sources beside tracer and compiler, if it is not the code of a flight.
+
+    Returns:
+        The key. It is empty if a class is not of this package: a user's law may read numbers from any file, so only the
+        module that is traced from it tells whether code on disk is its own.
     """
     from tandemlift.compiler.machine_code.machine import processor
 
+    if not all(c.__module__.startswith("tandemlift.") for c in classes(value)):
+        return ""
     versions = sys.version_info[:2], metadata.version("llvmlite"), processor()
     digest = hashlib.sha256(f"{versions} {described(value)} {more}".encode())
-    for path in sorted([*files, *(PACKAGE / "compiler").rglob("*.py")]) if files else sources(value):
+    for path in sorted([*files, *(PACKAGE / "compiler").rglob("*.py")]) if files else sources():
         digest.update(path.name.encode() + b"\0" + content(path) + b"\0")
     return digest.hexdigest()[:32]

@@ -147,6 +147,15 @@ const char *fmu_key(uint32_t parameter)
     return PARAMETER[parameter].key;
 }
 
+//if flight
+static void put_outputs(FmuModel *model, const mission_Sample *sample)
+{
+    for (int i = 0; i < FMU_OUTPUTS; i++) {
+        memcpy(&model->outputs[i], (const char *)sample + PLACE[i] * sizeof(double), sizeof(double));
+    }
+}
+
+//end flight
 bool fmu_update(FmuInstance *instance)
 {
     FmuModel *model = &instance->model;
@@ -163,9 +172,7 @@ bool fmu_update(FmuInstance *instance)
         memcpy(&external, model->inputs, sizeof external);
         bind(model);
         if (mission_flight_look(&model->flight, &external, &sample)) {
-            for (int i = 0; i < FMU_OUTPUTS; i++) {
-                memcpy(&model->outputs[i], (const char *)&sample + PLACE[i] * sizeof(double), sizeof(double));
-            }
+            put_outputs(model, &sample);
         }
     }
 //end flight
@@ -198,10 +205,13 @@ FmuResult fmu_begin(FmuInstance *instance)
 static void advance(FmuModel *model)
 {
 //if flight
+    mission_Sample sample;
     mission_CallerInput external;
     memcpy(&external, model->inputs, sizeof external);
     bind(model);
-    (void)mission_flight_step_with(&model->flight, &external, 0);
+    if (mission_flight_step_with(&model->flight, &external, &sample) && mission_flight_is_over(&model->flight)) {
+        put_outputs(model, &sample); /* no further sample can be looked at */
+    }
 //end flight
 //if pilot
     mission_PilotInput input;

@@ -5,6 +5,8 @@
 
 #include "mission_checks.h"
 
+#include <stdint.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif

@@ -25,6 +25,9 @@ int main(void)
         mission_PilotInput input;
         real thrusts[MISSION_ROTORS];
         memcpy(&pilot, VECTOR[i].memory, sizeof VECTOR[i].memory);
+//if single
+        pilot.samples = (uint32_t)VECTOR[i].memory[0];
+//end single
         memcpy(&input, VECTOR[i].input, sizeof input);
         mission_pilot_step(&pilot, &input, thrusts);
         for (int j = 0; j < MISSION_ROTORS; j++) {

@@ -7,12 +7,15 @@ from typing import Any, NamedTuple
 from tandemlift.compiler.machine_code.code import Code, Written
 from tandemlift.compiler.machine_code.store import key_of
 from tandemlift.compiler.tracer import Function, Module, Place, symbols, tracer, written_out
+from tandemlift.core.vector import Absent
 from tandemlift.parts.pilot.pilot import PilotMemory, PilotParameters, decide
 from tandemlift.parts.rotors.allocation import ConstrainedAllocation
 from tandemlift.simulation.preparation.limit_solver import limit_thrusts, write_limits, write_solver
 from tandemlift.simulation.preparation.traced_step import check_layout, graph_for
 
 POINTERS = ("numbers", "pilot_input", "thrusts", "work")  # words of the context, and behind them the step [s] as bits
+
+MEASURED = 19  # numbers of an input that are measured: state, force and moment
 
 
 class PilotData(NamedTuple):
@@ -49,6 +52,7 @@ class PilotSampler:
         given = self.graph.inputs("pilot_input", pilot_input)
         decided = PilotSample(*trace(decide)(pilot.parameters, pilot.memory, given, t, dt))
         self.limits = None
+        self.refuses = isinstance(getattr(onboard.parameters.guidance, "supervision", Absent()), Absent)
         if isinstance(onboard.parameters.allocation, ConstrainedAllocation):
             self.limits, *within = limit_thrusts(self.graph, trace, pilot.parameters, pilot.memory, decided, t)
             decided = PilotSample(*within)
@@ -58,7 +62,7 @@ class PilotSampler:
         self.after = symbols(self.graph, after)
 
     def written(self) -> Written:
-        """The function `sample`, whose argument is a context of `POINTERS`."""
+        """The function `sample`, whose argument is a context of `POINTERS`; it returns 1 for a refused measurement."""
         module = Module()
         if self.limits:
             write_solver(module, self.limits.solver, 1)
@@ -73,6 +77,8 @@ class PilotSampler:
             "dt": lambda i: dt,
             "solved": lambda i: Place("%work", solved + i),
         }
+        if self.refuses:
+            write_refusal(f)
         if self.limits:
             write_limits(f, self.limits, 0)
         f.values(self.after)
@@ -81,6 +87,17 @@ class PilotSampler:
         f.end("i64 0")
         size = solved + len(self.limits.search) if self.limits else 1
         return Written(module.text, {"size": size})
+
+
+def write_refusal(f: Function) -> None:
+    """Return without a sample if a number of the measurement is not finite: its memory would never be again."""
+    total = "0.0"
+    for i in range(MEASURED):
+        zero = f.op(f"fmul double {f.load('%pilot_input', i)}, 0.0")  # or NaN
+        total = f.op(f"fadd double {total}, {zero}")
+    wrong = f.op(f"fcmp une double {total}, 0.0")
+    f.do(f"br i1 {wrong}, label %refused, label %taken")
+    f.lines += ["refused:", "  ret i64 1", "taken:"]
 
 
 def pilot_code(start: PilotData, pilot_input: Any, quadrotors: int, *, fuses: bool) -> Code:

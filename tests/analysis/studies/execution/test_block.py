@@ -1,5 +1,9 @@
 """Many flights stepped together: each equals a `Simulation` alone to the last bit, whatever its neighbours do."""
 
+import _thread
+import itertools
+import time
+
 import numpy as np
 import pytest
 
@@ -114,6 +118,33 @@ def test_threads_change_no_bit():
             block.step(np.full((40, 3), 0.3), steps=100)
     for name in blocks[0].channels:
         np.testing.assert_array_equal(blocks[0][name], blocks[1][name], err_msg=name)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_flights_go_on_together_after_ctrl_c(threads, monkeypatch):
+    """It comes when one of two parts has flown and the other has not begun."""
+    block, whole = (tl.Block(mission("one-push"), 16, threads=n) for n in (threads, 1))
+    for each in (block, whole):
+        each.step(steps=9000)
+    fly, calls = block._memory.code.free["fly_blocks"], itertools.count()
+
+    def interrupted(call):
+        part = next(calls)
+        time.sleep(0.2 * (part == 1))
+        fly(call)
+        if part == 0:
+            _thread.interrupt_main()
+
+    monkeypatch.setitem(block._memory.code.free, "fly_blocks", interrupted)
+    block._memory._pace = 1.0  # s: worth a thread
+    with pytest.raises(KeyboardInterrupt):
+        block.step(steps=500)
+    assert (block.time == block.time[0]).all()
+    for each in (block, whole):
+        while not each.ended.all():
+            each.step(steps=500)
+    np.testing.assert_array_equal(block.state, whole.state)
+    assert set(block.outcome) == {"flying"}
 
 
 def test_channels_and_actions_are_views_of_what_the_flights_read_and_write():

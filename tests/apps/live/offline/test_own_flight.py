@@ -2,7 +2,6 @@
 
 import gzip
 import json
-import shutil
 import zipfile
 
 import numpy as np
@@ -230,21 +229,19 @@ def test_a_controller_that_branches_on_data_is_refused_with_the_line_and_what_fl
     assert f"`tandemlift live hover --controller {file}` also flies" in str(refused.value)
 
 
-def test_what_was_made_is_kept_until_mission_or_controller_change(tmp_path, monkeypatch):
-    mission, controller = tmp_path / "mine.toml", tmp_path / "my_pd.py"
+def test_what_was_made_is_kept_until_the_mission_changes_and_not_with_an_own_controller(tmp_path, monkeypatch):
+    mission = tmp_path / "mine.toml"
     mission.write_text('extends = "hover"\n[mission]\nname = "mine"\n', "utf-8")
-    shutil.copy(LISTINGS / "my_pd.py", controller)
     monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path / "cache"))
     monkeypatch.setattr(page_modules, "flight_manifest", lambda mission: ({"of": mission.mission.name}, b"code"))
-    given = str(mission), str(controller)
+    given, own = (str(mission),), (str(mission), str(LISTINGS / "my_pd.py"))
     assert page_modules.PageFlight(*given).ready is None
     made = page_modules.packed_flight(*given)
     assert page_modules.PageFlight(*given).ready == made
     mission.write_text(mission.read_text("utf-8") + "[vehicle.payload]\nmass = 0.6\n", "utf-8")
     assert page_modules.PageFlight(*given).ready is None
-    page_modules.packed_flight(*given)
-    controller.write_text(controller.read_text("utf-8") + "\n# another\n", "utf-8")
-    assert page_modules.PageFlight(*given).ready is None
+    page_modules.packed_flight(*own)
+    assert page_modules.PageFlight(*own).ready is None
 
 
 def test_several_missions_are_made_by_processes_as_each_alone(hover, tmp_path, monkeypatch):

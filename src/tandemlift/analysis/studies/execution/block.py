@@ -163,6 +163,8 @@ class Block(BlockReadings):
             actions: (lanes, n); none act if not given.
             steps: number of steps; a flight that ends before takes fewer.
 
+        Ctrl-C acts once all flights are at the same step.
+
         Raises:
             InputError: all flights are over, the actions have another shape or are not finite numbers, or `steps` is
                 not a whole number of at least 1.
@@ -171,9 +173,17 @@ class Block(BlockReadings):
             raise InputError("all flights are over; reset() begins them anew")
         end = self._k + (steps if steps == 1 else count_of("steps", steps))
         self._act(actions)
-        while self._k < end and self._due != NEVER:
-            self._fly_to(min(end, self._due))
-        self._ended.restore()
+        try:
+            while self._k < end and self._due != NEVER:
+                stop = min(end, self._due)
+                try:
+                    self._fly_to(stop)
+                except BaseException:  # by Ctrl-C: let no flight lag behind those that have gone on
+                    if (self._memory.reached != self._k).any():
+                        self._fly_to(stop)
+                    raise
+        finally:
+            self._ended.restore()
 
     def _act(self, actions: ArrayLike | None) -> None:
         if actions is None:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,6 +47,7 @@ class BlockOfFlights:
         threads: int,
     ) -> None:
         self.threads, self._pace = threads, 0.0  # s for a step of eight flights
+        self._running = list[Future[int]]()
         lanes, width = len(starts), LANES
         blocks, size = lanes // width, starts[0].numbers.size
         self.code, self._loop_code = loop_code.loop(LANES, differ=loop_code.parts_that_differ(starts)), loop_code
@@ -128,12 +130,13 @@ class BlockOfFlights:
         self._check_code()
         self.actions[:, own] = 0.0
         memory.put("steps", k)
-        self._fly_some(k + 1, b, b + 1)
-        memory.put("steps", NEVER)
-        memory.put("k", k)  # a block passes its last step
-        found = self.sample[:, own].copy()
-        self.sample[:, own], self.actions[:, own] = before
-        return found
+        try:
+            self._fly_some(k + 1, b, b + 1)
+            return self.sample[:, own].copy()
+        finally:
+            memory.put("steps", NEVER)
+            memory.put("k", k)  # a block passes its last step
+            self.sample[:, own], self.actions[:, own] = before
 
     def fly(self, stop: int) -> int:
         """Fly all blocks on to step `stop`, each at most to the step at which a watched flight ends; with threads.
@@ -141,14 +144,23 @@ class BlockOfFlights:
         Returns:
             The number of blocks in which one has ended.
         """
+        wait(self._running)  # of an interrupted call
         self._check_code()
         count, steps = len(self.blocks), stop - int(self.reached.min())
+        if not steps:
+            return 0
         parts = max(1, min(self.threads, count, int(self._pace * count * steps / WORTH)))
         began, cuts = time.perf_counter(), [count * i // parts for i in range(parts + 1)]
         if parts == 1:
             halted = self._fly_some(stop, 0, count)
         else:
-            halted = sum(self._pool.map(self._fly_some, [stop] * parts, cuts[:-1], cuts[1:]))
+            self._running = []
+            try:
+                for first, end in pairwise(cuts):
+                    self._running.append(self._pool.submit(self._fly_some, stop, first, end))
+                halted = sum(part.result() for part in self._running)
+            finally:
+                wait(self._running)  # else they would write while the caller reads
         spent = (time.perf_counter() - began) * parts
         self.code.add_time(spent)
         self._pace = spent / (count * steps)
