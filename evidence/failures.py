@@ -2,7 +2,8 @@
 
 python evidence/failures.py FOLDER
 
-The study may still be unfinished: what its folder holds is counted. `tandemlift run FOLDER --row N` flies a row again.
+The study may still be unfinished: what its folder holds is counted. `tandemlift run --from FOLDER --row N` flies a
+row again.
 """
 
 from __future__ import annotations

@@ -52,6 +52,7 @@ def shown_progress(label: str, unit: str = "rows", stream: TextIO | None = None)
         from tqdm.auto import tqdm
     out = stream or sys.stderr
     look: dict[str, Any] = {"desc": label, "unit": f" {unit}"}
+    look["bar_format"] = "{l_bar}{bar}| {n_fmt}/{total_fmt} [{elapsed}<{remaining}, {rate_noinv_fmt}]"  # never s/rows
     if stream is None and in_notebook():
         look |= {"delay": 0.5}
     elif out.isatty():  # a terminal of unknown size counts as 80 × 24; tqdm would show nothing

@@ -18,11 +18,20 @@ from tandemlift.missions.loading import (
     mission_from_text,
     mission_of,
 )
-from tandemlift.missions.mission import HoverFacts, Mission, PersonTable, SensorsTable, VehicleTable, check_keys
+from tandemlift.missions.mission import (
+    HoverFacts,
+    InitialTable,
+    Mission,
+    PersonTable,
+    SensorsTable,
+    VehicleTable,
+    check_keys,
+)
 
 __all__ = [
     "DATA",
     "HoverFacts",
+    "InitialTable",
     "Mission",
     "MissionLike",
     "MissionTemplate",

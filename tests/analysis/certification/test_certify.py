@@ -4,17 +4,23 @@ from __future__ import annotations
 
 import json
 import math
+import re
+import shlex
 
 import pytest
 from click.testing import CliRunner
+from repository import ROOT
 from scipy.stats import beta
 
 import tandemlift as tl
 from tandemlift.analysis.certification.certificate import Certificate
 from tandemlift.analysis.certification.flown import with_limits
+from tandemlift.analysis.certification.statistics import _claims
 from tandemlift.analysis.linearization.claims import Claim, FlownLimit, Tier
+from tandemlift.analysis.studies.design.study_files import load_plan
+from tandemlift.analysis.studies.execution.random_flights import RandomFlight, random_plan, what_is_drawn
 from tandemlift.apps.cli.main import cli
-from tandemlift.missions import load_mission
+from tandemlift.missions import load_mission, tables_of
 from tandemlift.pictures.report.study.certificate_report import certificate_lines, write_certificate
 
 QUICK = ["--set", "mission.duration=12.0", "--set", "phases.land_start=60.0"]
@@ -29,13 +35,17 @@ def made():
             "",
             52.8,
             "ms",
+            command="tandemlift run limits/delay-limit.toml",
             limit=0.0528,
             nominal=0.01,
             flown=FlownLimit(0.052, 0.053, 13.5, "oscillation"),
         ),
         Claim("largest inertia", "yaw", math.inf, "1"),
     )
-    return Certificate("iris", (Tier("linear", "Linear", ("Small motions.",), claims),), {"numpy": "2"})
+    tier = Tier(
+        "linear", "Linear", ("Small motions.",), claims, files={"limits/delay-limit.toml": 'extends = "iris"\n'}
+    )
+    return Certificate("iris", (tier,), {"numpy": "2"}, tables_of(load_mission("iris", {"admittance.damping": 3.25})))
 
 
 def test_a_number_below_its_bar_is_missed_and_one_without_a_bar_is_not():
@@ -61,6 +71,10 @@ def test_the_files_of_a_certificate(tmp_path):
     html = page.read_text("utf-8")
     for words in ("Small motions.", "phase margin, pitch", "<strong>Below the bar</strong>: phase margin, pitch."):
         assert words in html
+    assert f"tandemlift run {tmp_path}/limits/delay-limit.toml" in html
+    assert f"tandemlift certify {tmp_path}/mission.toml --tiers linear" in html
+    assert said["tables"]["admittance"]["damping"] == [3.25] * 3
+    assert load_mission(tmp_path / "mission.toml").admittance.damping == (3.25,) * 3
     assert pdf.read_bytes().startswith(b"%PDF")
     assert any("flown 53 (oscillation)" in line for line in certificate_lines(made()))
 
@@ -76,6 +90,31 @@ def test_an_arm_without_a_limit_is_not_flown():
 def test_an_unknown_tier_is_refused_before_anything_is_computed():
     with pytest.raises(tl.InputError, match="unknown tier 'liner'"):
         tl.certify("hover", ["liner"])
+
+
+def test_the_command_of_a_failed_flight_names_its_row_and_the_folder_of_the_study(tmp_path):
+    rows = [RandomFlight("flying", ()), RandomFlight("crashed", ())]
+    (claim,) = _claims(rows, tmp_path / "my study")
+    flown = CliRunner().invoke(cli, shlex.split(claim.command)[1:])
+    assert claim.command.endswith("my study' --row 1")
+    assert f"{tmp_path / 'my study'} is not the folder of a study" in str(flown.exception)
+
+
+def test_random_flights_keep_the_force_on_the_mission_and_their_assumptions_name_what_they_draw(tmp_path):
+    """Without a force, the draws of a certificate of `iris` are those of its million flights."""
+    million = load_plan(ROOT / "evidence" / "iris_million.toml")
+    iris = random_plan(load_mission("iris"), tmp_path / "iris", 8)
+    assert [row.varied for row in iris.rows(0, 8)] == [row.varied for row in million.rows(0, 8)]
+    led, pushed = (
+        random_plan(load_mission("zigzag", {"disturbance.force": [0.0, 0.0, f]}), tmp_path / f"{f}", 8) for f in (0, -3)
+    )
+    assert {pushed.mission(row).disturbance.force for row in pushed.rows(0, 8)} == {(0.0, 0.0, -3.0)}
+    assert {led.mission(row).disturbance.force[2] for row in led.rows(0, 8)} == {0.0}
+    assert len({row.varied["disturbance.force"][0] for row in led.rows(0, 8)}) == 8
+    for plan in (iris, led, pushed):
+        drawn = set(re.findall(r"[a-z]+\.[a-z_]+", what_is_drawn(plan)[0].partition(". All else")[0]))
+        assert drawn == {"mission.seed", *plan.rows(0, 1)[0].varied}
+        assert ("mission.duration is 1.6 times" in what_is_drawn(plan)[0]) == (plan is not iris)
 
 
 def test_the_command_writes_a_study_that_goes_on_and_missions_that_fly(tmp_path):

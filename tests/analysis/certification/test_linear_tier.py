@@ -16,7 +16,7 @@ import tandemlift as tl
 from tandemlift.analysis.certification.changed_models import linear_limit
 from tandemlift.analysis.certification.disk_margins import DiskMargin, disk_margin, disk_sizes
 from tandemlift.analysis.certification.flown import LimitTrial, flown_limit, trial_of
-from tandemlift.analysis.certification.linear import linear_tier, loop_as_flown
+from tandemlift.analysis.certification.linear import changed_limits, linear_tier, loop_as_flown
 from tandemlift.analysis.linearization.loop_margins import is_stable, largest, open_loop, single_loop
 from tandemlift.core.errors import InputError
 from tandemlift.missions import load_mission
@@ -144,6 +144,14 @@ def test_a_vehicle_much_lighter_than_its_pilot_assumes_is_not_pushed_beyond_the_
 def test_the_heaviest_vehicle_is_that_which_its_rotors_lift():
     mission = load_mission("iris")
     assert claim_of("largest mass").value == pytest.approx(mission.hover.lift / mission.hover.weight, rel=1e-6)
+
+
+def test_ideal_rotors_lift_any_mass_and_have_no_delay():
+    mission = load_mission("flight-ready", {"actuators.delay": 0.1})
+    (claim,) = [c for c in changed_limits(mission) if c.quantity == "largest mass"]
+    assert claim.value > 2.0 > mission.hover.lift / mission.hover.weight
+    assert not tl.fly(load_mission("flight-ready", {"plant.mass_scale": 2.0, "mission.duration": 12.0})).failure
+    assert not [result for result in tl.check(mission) if result.check.startswith("loop") and result.verdict == "fails"]
 
 
 def test_every_margin_of_an_axis_has_a_bar_and_those_of_all_rotors_are_no_wider():

@@ -106,6 +106,20 @@ def test_flights_in_the_hand_of_an_arm_begin_to_oscillate_at_the_predicted_stiff
     assert predicted < 1.02 * flown.above
 
 
+def test_the_admittance_at_the_hand_turns_with_the_heading():
+    turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    turned, expected = felt_admittance(load_mission("iris", {"initial.euler": [0.0, 0.0, math.pi / 2.0]})), felt().Y
+    assert np.abs(turned.Y - turn @ expected @ turn.T).max() < 0.05 * np.abs(expected).max()  # pushed from another side
+
+
+def test_an_arm_below_its_limit_holds_a_vehicle_calmly_at_any_heading():
+    mission = load_mission("iris", {"initial.euler": [0.0, 0.0, 2.0], "person.grip": 0.8})
+    trial = trial_of(mission, "arm stiffness")
+    flight = tl.fly(trial.mission(10.0))
+    assert not trial.ended(flight)
+    assert np.abs(flight["push_force"]).max() < 0.05
+
+
 def test_models_of_other_masses_and_dampings_follow_from_three():
     mission = load_mission("iris")
     family, own = admittance_family(mission), (2.0, 3.0)

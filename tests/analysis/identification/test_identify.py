@@ -19,6 +19,7 @@ from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, Log, Stream, log_o
 from tandemlift.core.errors import InputError
 from tandemlift.engines.vehicle_unknowns import driven_numbers, unknowns_of
 from tandemlift.missions import load_mission
+from tandemlift.pictures.report.identification_report import draw_estimates, write_identification
 
 pytest.importorskip("mujoco")
 START = "iris"
@@ -152,10 +153,10 @@ def test_the_identified_mission_is_written_with_its_intervals(found, tmp_path):
 
 
 def test_the_page_shows_each_estimate(found, tmp_path):
-    from tandemlift.pictures.report.identification_report import write_identification
-
     text = write_identification(found.as_dict(), tmp_path).read_text("utf-8")
     assert all(row.key in text for row in (*found.rows, *found.whole))
+    (axes,) = draw_estimates([{**found.rows[0]._asdict(), "start": found.rows[0].value / 2.6}]).axes
+    assert axes.lines[1].get_xydata().tolist() == [[axes.get_xlim()[1], 0.0]]  # an arrow at the edge
 
 
 def test_biases_that_walk_within_a_window_widen_the_intervals(log):
@@ -213,6 +214,28 @@ def test_outliers_gaps_and_clocks_of_their_own_change_little(log, found):
     assert all(0.8 < ratio < 1.5 for ratio in again.details["predicted"]["ratio"].values())
     for row in (*found.rows, *found.whole):
         assert abs(again[row.key].value - row.value) < 1.5 * row.half, row.key
+
+
+def test_gaps_of_a_stream_cost_no_more_than_their_windows(log, tmp_path):
+    """The last windows, of which one is the example and two are held back, have no joints."""
+    kept = dict(log.between(BEGIN, PUSH - 3.0))
+    gaps = (10.2, 11.7, MOTION), (12.3, 12.8, MOTION[1:2]), (13.5, 14.2, IMU[1:]), (14.9, 16.9, JOINTS)
+    for begin, end, names in gaps:
+        for name in names:
+            time, values = kept[name]
+            there = (time < begin) | (time > end)
+            kept[name] = Stream(time[there], values[there])
+    true, keys = load_mission(START, TRUTH), ["vehicle.payload.mass", "vehicle.quadrotors.*.thrust_constant"]
+    gapped = tl.identify(Log(kept, "gaps"), true, parameters=keys, weighed=WEIGHED, window=0.4, **SILENT)
+    assert gapped.details["windows"] == {"used": 10, "left_out": 0}  # of 18: six begin in a gap, two are held back
+    for row in gapped.rows:
+        assert abs(row.value - row.start) < 1.5 * row.half < 0.003 * row.start, row.key
+    _, data = gapped.save(tmp_path)
+    told = json.loads(data.read_text("utf-8"))
+    sizes = {name: len(points) for name, points in told["misfit"].items()}
+    assert sizes == dict.fromkeys((*IMU, *MOTION), 10) | dict.fromkeys(JOINTS, 8)
+    assert {*told["held_back"]["ratio"]} == {*IMU, *MOTION}
+    assert write_identification(told, tmp_path).is_file()
 
 
 def test_the_estimate_is_that_of_scipy_on_a_plain_model(log):

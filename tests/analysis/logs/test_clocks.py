@@ -93,11 +93,13 @@ def test_the_clock_of_joints_and_the_mass_they_carry_are_found_beside_slow_pushe
     assert clock.offset == pytest.approx(-0.05 + 30e-6 * clock.about, abs=4.0 * clock.offset_sigma)
     assert clock.offset_sigma < 2e-4
     assert clock.scale == pytest.approx(MASS, rel=0.02)
+    del streams[IMU[1]]
+    assert synchronised(Log(streams))[JOINTS[0]].time == pytest.approx(FAST[::2], abs=1e-3)
 
 
 def test_stamps_are_corrected_where_the_motion_tells_and_kept_where_it_does_not(motions):
     streams = moving(motions, 0, 0.3, 50e-6)
-    streams |= {name: Stream(streams[MOTION[2]].time, np.ones((len(FAST[::5]), 3))) for name in MOTION[:2]}
+    streams[MOTION[0]] = Stream(streams[MOTION[2]].time, np.ones((len(FAST[::5]), 3)))
     aligned = synchronised(Log(streams))
     (line,) = aligned.notes
     assert aligned[MOTION[0]].time == pytest.approx(FAST[::5], abs=2e-3)
@@ -122,5 +124,7 @@ def test_perfect_readings_tell_the_clock_exactly_and_still_ones_nothing(motions)
 def test_a_log_without_an_attitude_has_no_clock_of_motion_capture(motions):
     streams = moving(motions, 0, 0.0, 0.0)
     del streams[MOTION[2]]
+    streams[MOTION[1]] = Stream(FAST, np.ones((len(FAST), 3)))
     with pytest.raises(tl.InputError, match="has no measured_attitude"):
         clock_of(Log(streams), "motion")
+    assert synchronised(Log(streams)).notes == ("motion: the log has no measured_attitude; its stamps are kept",)

@@ -82,8 +82,12 @@ def test_by_default_the_grid_has_all_numbers_and_outcomes_and_no_texts_of_findin
 def test_a_column_that_the_flights_of_one_file_do_not_have_is_null_there(tmp_path):
     study = {"name": "two", "missions": ["one-push", "doorway"], "draws": 2, "rows_per_chunk": 2}
     two = {"study": study, "set": {"mission.duration": 0.1}}
-    found = flown(two, tmp_path / "two").read(["clearance_min_m", "row"])
-    assert [value is None for value in found["clearance_min_m"].to_pylist()] == [True, True, False, False]
+    found = flown(two, tmp_path / "two")
+    clearances = found.read(["clearance_min_m", "row"])["clearance_min_m"].to_pylist()
+    assert [value is None for value in clearances] == [True, True, False, False]
+    rows = [{"row": number, "clearance_min_m": clearances[number]} for number in (3, 0)]
+    assert found.rows([3, 0], ["row", "clearance_min_m"]) == rows
+    assert found.rows([0], ["clearance_min_m"]) == [{"clearance_min_m": None}]
 
 
 def test_kept_channels_are_those_of_the_flight(gusts):
@@ -102,8 +106,9 @@ def test_a_study_that_is_not_finished_says_how_much_is_missing(gusts, tmp_path):
     assert "124 of 144 rows" in part._repr_html_()
     with pytest.raises(tl.InputError, match="no full grid: 20 of 144 are missing"):
         part.to_xarray()
-    with pytest.raises(tl.InputError, match="row 45 is not flown yet"):
-        part.channels(45)
+    for asked in (part.channels, lambda row: part.rows([3, row], ["row"])):
+        with pytest.raises(tl.InputError, match="row 45 is not flown yet"):
+            asked(45)
 
 
 def test_a_study_of_which_nothing_is_flown_is_an_empty_table(copy):
@@ -128,6 +133,7 @@ def test_a_folder_that_is_no_study_is_refused(tmp_path):
     ("ask", "answer"),
     [
         (lambda study: study.read(["human_wrok_j"]), "unknown column 'human_wrok_j'.*Did you mean 'human_work_j'"),
+        (lambda study: study.rows([0], ["human_wrok_j"]), "unknown column 'human_wrok_j'.*Did you mean 'human_work_j'"),
         (lambda study: study.values("outcome"), "column 'outcome' holds texts"),
         (lambda study: study.mission(144), "row = 144: must be a whole number from 0 to 143"),
         (lambda study: study.channels(-1), "row = -1: must be"),

@@ -6,9 +6,12 @@ from functools import partial
 
 import numpy as np
 import pytest
+from scipy.io import loadmat
 from verbs import verb
 
 from tandemlift.core.errors import InputError
+from tandemlift.pictures.report.study import certificate_figures
+from tandemlift.pictures.report.study.linear_model_figure import Response
 
 call = partial(verb, "linearize")
 
@@ -30,10 +33,21 @@ def test_the_body_alone_has_the_rotors_as_inputs():
     assert "13 states, of which 13 connect the 8 inputs with the 6 outputs" in text
 
 
+def test_the_figure_has_the_inputs_and_outputs_that_were_asked_for(tmp_path, monkeypatch):
+    titles = []
+    monkeypatch.setattr(certificate_figures, "Response", lambda *words: titles.append(words[0]) or Response(*words))
+    code, _, _ = call(
+        *("hover", "--inputs", "disturbance_force", "--outputs", "velocity"),
+        *("--figure", tmp_path / "m.png", "--out", tmp_path / "m.mat"),
+    )
+    assert (code, titles) == (0, ["disturbance force → velocity"])
+    assert loadmat(tmp_path / "m.mat")["C"].shape[0] == 3
+
+
 @pytest.mark.parametrize(
     ("arguments", "piece"),
     [
-        (["paper", "--out", "m.mat"], "must end in .npz or .json"),
+        (["paper", "--out", "m.txt"], "must end in .npz or .json or .mat"),
         (["paper", "--figure", "m.gif"], "must end in .png"),
         (["paper", "--at", "1e9"], "mission.duration"),
         (["paper", "--inputs", "hand"], "unknown input"),

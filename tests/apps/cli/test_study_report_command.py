@@ -30,7 +30,8 @@ def test_metrics_the_file_and_a_style_can_be_chosen(folder, tmp_path):
     chosen = ("--for", "human_work_j", "--for", "position_rmse_m.0", "--out", tmp_path / "chosen.html")
     run(folder, *chosen, "--style", "ieee")
     text = (tmp_path / "chosen.html").read_text("utf-8")
-    assert text.index("<h3>Human work [J]</h3>") < text.index("<h3>Position RMSE, entry 0 [mm]</h3>")
+    assert text.index("<h3>Human work [J]</h3>") < text.index("<h3>Position RMSE, x [mm]</h3>")
+    assert ">Position RMSE, x<" in text  # of the table of correlations
     assert {path.name for path in tmp_path.iterdir()} == {"chosen.html", "outcomes.csv", "outcomes.tex", "figures"}
     assert {path.suffix for path in (tmp_path / "figures").iterdir()} == {".png", ".pdf"}
 

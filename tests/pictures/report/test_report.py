@@ -37,6 +37,7 @@ def windy():
         "wind.velocity": [2.0, -1.0, 0.0],
         "wind.turbulence": 6.0,
         "plant.mass_scale": 3.8 / 3.5,
+        "estimator.tare": "hover",
         "faults": [{"quadrotor": 2, "rotor": 3, "time": 15.0, "efficiency": 0.25, "known_after": 0.05}],
         "walls": [{"start": [0.0, 3.0], "end": [9.0, 3.0]}],
     }
@@ -111,6 +112,7 @@ def test_the_set_up_is_told_with_the_mission_s_numbers(windy, write):
         "Joint forces": [f"noise {sensors['joints']['force_noise']:g} N", f"±{sensors['joints']['force_range']:g} N"],
         "Accelerometer": [f"bias {sensors['accelerometer']['bias']:g} m/s²"],
         "Motion": [f"every {1e3 * sensors['motion']['interval']:g} ms"],
+        "Estimate of the push": ["; tare in steady hover, for 3 s"],
         "Wind": ["mean (2, −1, 0) m/s", "turbulence of 6 m/s"],
         "Floor": ["at z = −", "friction 0.8"],
         "Walls": ["1"],
@@ -267,6 +269,9 @@ def test_numbers_are_printed_for_people(value, text):
         ("position_rmse_after_10s_m", "Position RMSE after 10 s", "m"),
         ("moment_max_abs_after_10s_n_m", "Moment max abs after 10 s", "N m"),
         ("rotor_saturated_share", "Rotor saturated share", ""),
+        ("attitude_rmse_rad.0", "Attitude RMSE, roll", "rad"),
+        ("command_at_start.0", "Command at start, U1", "N"),
+        ("command_at_start.3", "Command at start, U4", "N m"),
     ],
 )
 def test_units_are_split_from_names(name, words, unit):

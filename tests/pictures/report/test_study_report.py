@@ -1,5 +1,6 @@
 """The page of a study: its numbers are those of the table, it needs nothing else, and trusts no text."""
 
+import math
 import re
 
 import numpy as np
@@ -9,9 +10,10 @@ from scipy import stats
 from small_studies import made_up, without_file
 
 import tandemlift as tl
+from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.core.findings import FINDING_NAMES
 from tandemlift.pictures.report.page import number
-from tandemlift.pictures.report.study.sections import percent
+from tandemlift.pictures.report.study.sections import percent, what_was_flown
 from tandemlift.pictures.report.study.study_report import write_study_report
 
 HOSTILE = "<script>alert('x')</script>\"&<img src=http://evil.example/x.png>"
@@ -160,6 +162,13 @@ def test_what_was_flown_is_told(page):
     assert f"tandemlift {tl.__version__}, sources" in page.text
 
 
+def test_a_factor_has_no_unit(tmp_path):
+    factor = {"distribution": "uniform", "relative": True, "low": 0.7, "high": 1.3}
+    plan = load_plan({"study": {"name": "light", "missions": ["one-push"]}, "draw": {"admittance.mass": factor}})
+    told = list(what_was_flown(tl.Study(tmp_path, plan, ())))
+    assert ("Drawn", "admittance.mass: uniform, relative true, low 0.7, high 1.3") in told
+
+
 def test_the_mass_is_found_to_matter(page, rows):
     """Of errors and clearance, but not of what the person does."""
     shown = {name: page.row(name)[1:] for name in ("plant.mass_scale", "admittance.damping")}
@@ -185,12 +194,17 @@ def test_chosen_metrics_are_shown_and_no_others(study, tmp_path):
         ({}, ""),
         ({"admittance.damping": [5.0, 10.0]}, "Over the parameter"),
         ({"wind.model": ["none", "air"], "admittance.damping": [5.0, 10.0]}, "Maps"),
+        (
+            {"pushes": [[{"force": [f, 0.0, 0.0], "time": 0.1}] * bool(f) for f in (1.0, 2.0, 0.0)]},
+            "Over the parameter",
+        ),
     ],
 )
 def test_small_studies_have_a_page_with_a_map_over_their_grid(grid, title, tmp_path):
     study = made_up({"study": {"name": "small", "missions": ["one-push"]}, "grid": grid}, tmp_path / "small", measured)
     page = check_page(write_study_report(study, tmp_path / "report.html"))
-    assert page.row("all rows")[:2] == ["all rows", str(2 ** len(grid))]
+    assert page.row("all rows")[:2] == ["all rows", str(math.prod(map(len, grid.values())))]
+    assert "None N" not in page.text  # of a push that a row does not have
     assert re.findall(r"<b>Figure \d\. (.*)\.</b>", page.text)[1:] == [title] * bool(title)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -22,11 +22,13 @@ class Certificate:
         mission: its name.
         tiers: in the order of their strength, from the linear model to flights.
         versions: of the packages that computed it.
+        tables: of the mission, with every key.
     """
 
     mission: str
     tiers: tuple[Tier, ...]
     versions: Mapping[str, str]
+    tables: Mapping[str, Any] = field(default_factory=dict)
 
     def tier(self, name: str) -> Tier:
         """A tier by its name.
@@ -50,6 +52,7 @@ class Certificate:
         """The certificate as plain data; a number without a limit is the text "unlimited", one that is unknown None."""
         return {
             "mission": self.mission,
+            "tables": _finite(self.tables),
             "versions": dict(self.versions),
             "tiers": [
                 {

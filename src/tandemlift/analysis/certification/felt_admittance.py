@@ -79,8 +79,10 @@ def felt_admittance(mission: Mission, changes: dict[str, Any] | None = None) -> 
     w = np.geomspace(SLOWEST, min(FASTEST, 0.9 * math.pi / model.step), POINTS)
     held = step_over_sample(w, hover.mission.step, model.step)
     x, y, z = np.add(mission.hover.vehicle.origin, (0.0, mission.person.grip, 0.0))  # the grip
-    lever = np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])  # v = v_c + ω × r
-    at_grip = np.hstack([np.eye(3), lever])
+    lever = np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])  # ω × r, body axes
+    c, s = math.cos(hover.initial.euler[2]), math.sin(hover.initial.euler[2])
+    heading = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    at_grip = np.hstack([np.eye(3), heading @ lever])  # v_c + R (ω × r)
     return FeltAdmittance(w, at_grip @ frequency_response(model, w / (2.0 * math.pi)) @ at_grip.T * held[:, None, None])
 
 

@@ -7,7 +7,7 @@ stable if all rates of turn and the climb decay from the time after the push to 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -19,7 +19,7 @@ from tandemlift.analysis.linearization.loop_margins import UNROUNDED, calm_missi
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array
-from tandemlift.missions import HoverFacts, Mission, PersonTable, check, format_toml, merge, tables_of
+from tandemlift.missions import HoverFacts, InitialTable, Mission, PersonTable, check, format_toml, merge, tables_of
 from tandemlift.simulation.fly import Flight, fly_many
 
 LEAST, MOST, COARSE, FINE = 0.5, 1.6, 16, 12  # factors of the predicted limit; flights that look for the limit
@@ -57,8 +57,8 @@ def trial_of(mission: Mission, name: str) -> LimitTrial:
     """
     p, (hover, at) = parameter(name), hover_as_flown(mission)
     if name == ARM:
-        place = hover.initial.position
-        return LimitTrial(lambda k: with_keys(hover, arm_keys(mission.person, place, at, k)), stability_in_hand, 0.0)
+        start = hover.initial
+        return LimitTrial(lambda k: with_keys(hover, arm_keys(mission.person, start, at, k)), stability_in_hand, 0.0)
 
     def kicked(value: float) -> Mission:
         keys = p.keys(mission, value)
@@ -116,11 +116,11 @@ def hover_as_flown(mission: Mission) -> tuple[Mission, float]:
     """(A calm hover of a mission with its own rotors, the time [s] at which it is calm); sensors do not round."""
     calm, at = calm_mission(mission)
     own, t = tables_of(mission), tables_of(calm)
-    _, lag = rotor_delay_and_lag(mission.hover)
-    if mission.actuators.model == "rotors":
+    if mission.actuators.model == "rotors":  # ideal ones have no limit, lag or delay
+        _, lag = rotor_delay_and_lag(mission.hover)
         t["actuators"] = own["actuators"]
-    for q, original in zip(t["vehicle"]["quadrotors"], own["vehicle"]["quadrotors"], strict=True):
-        q |= {"max_speed": original["max_speed"], "lag_up": lag, "lag_down": lag}
+        for q, original in zip(t["vehicle"]["quadrotors"], own["vehicle"]["quadrotors"], strict=True):
+            q |= {"max_speed": original["max_speed"], "lag_up": lag, "lag_down": lag}
     return check(merge(t, {"sensors": UNROUNDED}), mission.mission.name, quiet=True), at
 
 
@@ -138,11 +138,11 @@ def kick_keys(hover: HoverFacts, at: float, mass_scale: float) -> dict[str, Any]
     return {"pushes": pushes, **_times(at)}
 
 
-def arm_keys(p: PersonTable, position: Sequence[float], at: float, stiffness: float) -> dict[str, Any]:
+def arm_keys(p: PersonTable, start: InitialTable, at: float, stiffness: float) -> dict[str, Any]:
     """The changes of a hover that is calm at a time [s], for a massless arm that holds its grip and pulls it aside."""
-    x, y = position[:2]
-    aside = PULL / stiffness
-    place = {"point": [x + aside, y + p.grip + aside], "dwell": 1e4}
+    (x, y, _), yaw, aside = start.position, start.euler[2], PULL / stiffness
+    hand = x - p.grip * math.sin(yaw), y + p.grip * math.cos(yaw)
+    place = {"point": [place + aside for place in hand], "dwell": 1e4}
     arm = {"stiffness": stiffness, "damping": p.damping, "tremor": 0.0, "max_force": 1e4}
     person = {"model": "hold", "grip": p.grip, "path": [place], "start_time": at, "delay": 0.01, **arm}
     return {"person": person, "admittance.threshold": [SENSITIVE] * 3, **_times(at)}

@@ -146,22 +146,24 @@ def rotor_limits(loop: LoopAsFlown) -> Iterator[Claim]:
 def changed_limits(mission: Mission) -> Iterator[Claim]:
     """Mass and inertias at which a mission's hover is no longer stable, by a linear model of each value.
 
-    The limit of the largest mass may be the rotors' thrust.
+    The limit of the largest mass may be the thrust of real rotors; ideal ones have no limit.
     """
-    lifted = mission.hover.lift / mission.hover.vehicle.weight
+    limited = mission.actuators.model == "rotors"
+    lifted = mission.hover.lift / mission.hover.vehicle.weight if limited else math.inf
     for name, growing in itertools.product(CHANGED, (False, True)):
         axis, _, kind = name.rpartition(" ")
         quantity = f"{'largest' if growing else 'least'} {kind}"
         at, frequency = linear_limit(mission, name, growing=growing)
+        end = f"it oscillates at {frequency:.3g} rad/s" if frequency else "there is no calm hover beyond it"
+        text = f"times the pilot's value; {end}"
+        if name == "mass" and at > lifted:
+            at, frequency, text = lifted, math.nan, "times the pilot's value: the most that the rotors lift"
         if not 0.0 < at < math.inf:
             yield Claim(quantity, axis, at, "1", text="no limit within a factor of 50")
             continue
-        text = f"times the pilot's value; it oscillates at {frequency:.3g} rad/s"
-        if name == "mass" and at > lifted:
-            at, frequency, text = lifted, math.nan, "times the pilot's value: all that the rotors lift"
         if name == "mass" and at < 1.0 and mission.pilot.guidance == "interactive":
             push = f"a push of more than {min(mission.admittance.threshold):g} N, the threshold"
-            text += f"; {push}, may start an oscillation before: of the admittance"
+            text += f"; {push}, may make the admittance oscillate earlier"
         yield Claim(quantity, axis, at, "1", None, text, frequency, parameter=name, limit=at)
 
 

@@ -8,18 +8,18 @@ Source: Clopper and Pearson, The use of confidence or fiducial limits illustrate
 
 from __future__ import annotations
 
+import shlex
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
 from tandemlift.analysis.linearization.claims import Claim, Tier
 from tandemlift.analysis.studies.execution.random_flights import (
-    DELAY,
-    INERTIA,
-    MASS,
     RandomFlight,
     probability_bound,
     random_flights,
+    random_plan,
+    what_is_drawn,
 )
 from tandemlift.missions import Mission
 
@@ -38,10 +38,10 @@ def statistics_tier(mission: Mission, folder: Path, flights: int = FLIGHTS) -> T
     Raises:
         InputError: the folder holds another study, or an optional package is missing (extras: certify, study).
     """
-    rows = random_flights(mission, folder, flights)
+    plan = random_plan(mission, folder, flights)
+    rows = random_flights(plan, folder)
     assumptions = (
-        f"Drawn for each flight: mass within ±{100 * MASS:g} %, inertia about each axis within ±{100 * INERTIA:g} %, "
-        f"{1e3 * DELAY:g} ms of further delay with real rotors, the seed of all noise, and the person if one leads.",
+        *what_is_drawn(plan),
         "Uniform and independent: the bound is one on this distribution, not on a vehicle outside of it.",
         "A flight fails if it crashes, diverges, or is lost; one that is landed by the pilot's own alarm does not.",
     )
@@ -54,8 +54,8 @@ def _claims(rows: list[RandomFlight], folder: Path) -> Iterator[Claim]:
     bad = [number for number, row in enumerate(rows) if row.failed]
     some = ", ".join(map(str, bad[:SHOWN])) + (" …" if len(bad) > SHOWN else "")
     text = f"{len(bad)} of {len(rows)} flights failed{': rows ' + some if bad else ''}; confidence 95 %"
-    command = f"tandemlift run {folder} --row {bad[0]}" if bad else f"tandemlift report {folder}"
-    yield _bound("probability of a failure", "", len(bad), len(rows), text, command)
+    words = ["run", "--from", str(folder), "--row", str(bad[0])] if bad else ["report", str(folder)]
+    yield _bound("probability of a failure", "", len(bad), len(rows), text, shlex.join(["tandemlift", *words]))
     kinds = Counter(kind for row in rows for kind in row.findings)
     for kind, count in kinds.most_common():
         yield _bound("probability of a finding", kind, count, len(rows), f"{count} of {len(rows)} flights", "")

@@ -26,7 +26,6 @@ from tandemlift.core.types import Array
 from tandemlift.engines.vehicle_unknowns import Unknowns
 
 HUBER = 3.0
-BEGINNING = 0.2  # of a window
 PLAIN, ROBUST, CAREFUL = range(3)  # least squares of beginnings; Huber's weights; these, and none beyond `ABSURD`
 GROUP = 1.0  # s, about which a bias is constant
 MOST_GROUPS = 60
@@ -171,7 +170,7 @@ class Linearisation:
     def _equations(self, part: LogInSearch, robust: int) -> Equations:
         e, n, predictor = self.estimate, self.unknowns.numbers(self.estimate.q), part.predictor
         if robust == PLAIN:
-            predictor = replace(predictor, windows=part.windows.shortened(BEGINNING))
+            predictor = replace(predictor, windows=part.windows.beginnings())
         w = predictor.windows
         squares, moved = predictor.squares(n, True)
         predicted = predictor.predicted(part.starts, n, squares, e.point)
@@ -183,7 +182,8 @@ class Linearisation:
             clock = self.priors.clocks.get(name)
             behind = None if clock is None else e.biases[part.groups, clock] / w.step
             r = residuals(samples, name, predicted, biases, e.turns, behind) / e.noise[name]
-            found.spread[name] = robust_sd(r[part.used[samples.window]]) * e.noise[name]
+            if (used := part.used[samples.window]).any():
+                found.spread[name] = robust_sd(r[used]) * e.noise[name]
             clipped = np.minimum(np.sum(r * r, axis=1) / r.shape[1], HUBER**2)
             counts = np.maximum(np.bincount(samples.window, minlength=len(w.first)), 1)
             found.misfit[name] = np.bincount(samples.window, clipped, len(w.first)) / counts

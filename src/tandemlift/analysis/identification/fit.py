@@ -82,7 +82,7 @@ class VehicleSearch(Linearisation):
 
     def _follow_noise(self, equations: list[Equations]) -> None:
         for name in self.estimate.noise:
-            own = [eq.spread[name] for eq in equations if name in eq.spread]
+            own = [eq.spread[name] for eq in equations if name in eq.spread] or [self.estimate.noise[name]]
             self.estimate.noise[name] = max(float(np.median(own)), 1e-12)
 
     def _leave_out(self, equations: list[Equations]) -> None:

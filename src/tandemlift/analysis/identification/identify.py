@@ -246,9 +246,8 @@ def _example(search: VehicleSearch) -> dict[str, Any]:
     predicted = part.predictor.predicted(part.starts, n, part.predictor.squares(n, False)[0], search.estimate.point)
     last, shown = int(np.flatnonzero(part.used)[-1]), dict[str, Any]()
     for name in ("measured_specific_force", "measured_rates", "measured_joint_force", "measured_position"):
-        if name in w.samples:
-            s = w.samples[name]
-            own = s.window == last
+        s = w.samples.get(name)
+        if s is not None and (own := s.window == last).any():
             thin = max(1, int(own.sum()) // SHOWN)
             place = search.priors.places.get(name)
             bias = search.estimate.biases[part.groups[last], place] if place else 0.0

@@ -89,8 +89,8 @@ def covariance_of(
     for part, own, (_, to_start) in zip(search.parts, equations, normal.back, strict=True):
         gain = inverse[:count, search.places(part)].swapaxes(0, 1)
         gain = np.concatenate([-gain @ to_start.swapaxes(1, 2), gain], axis=2)  # of sides (W, P, C)
-        for name in priors.places:
-            whole = whole + _by_walks(part, gain[part.used], own.columns[name][part.used], priors, name)
+        for name, columns in own.columns.items():
+            whole = whole + _by_walks(part, gain[part.used], columns[part.used], priors, name)
     return Covariance(whole, inverse[:count, :count])
 
 
@@ -152,14 +152,14 @@ def alike_pairs(names: Sequence[str], correlations: Array) -> list[tuple[str, st
 
 
 def misfit_by_window(search: VehicleSearch, rows: list[dict[str, Array]]) -> dict[str, list[list[float]]]:
-    """The root mean square of whitened residuals of every window, with its time [s], by stream."""
+    """The root mean square of whitened residuals of every window with samples, with its time [s], by stream."""
     found = dict[str, list[list[float]]]()
     for part, own in zip(search.parts, rows, strict=True):
         for name, r in own.items():
-            sizes = np.sqrt(np.nanmean(r[part.used] ** 2, axis=(1, 2)))
-            times = part.windows.times()[part.used]
-            found.setdefault(name, []).extend(np.column_stack([times, sizes]).tolist())
-    return found
+            sampled = part.used & np.isfinite(r).any(axis=(1, 2))
+            sizes = np.sqrt(np.nanmean(r[sampled] ** 2, axis=(1, 2)))
+            found.setdefault(name, []).extend(np.column_stack([part.windows.times()[sampled], sizes]).tolist())
+    return {name: sizes for name, sizes in found.items() if sizes}
 
 
 def remarks_on(

@@ -121,7 +121,7 @@ class Predictor:
         return len(self.mission.vehicle.quadrotors)
 
     def starts(self) -> Array:
-        """First guesses of the states (W, 13) at the start of the windows, from the measurements about it."""
+        """First guesses of the states (W, 13) at the start of the windows: their first samples, or no velocity."""
         w, found = self.windows, np.zeros((len(self.windows.first), 13))
         for name, place in (
             ("measured_position", slice(0, 3)),
@@ -130,9 +130,8 @@ class Predictor:
             ("measured_rates", slice(10, 13)),
         ):
             if name in w.samples:
-                found[:, place] = _begin_of(w, name)
-        if "measured_velocity" not in w.samples:
-            found[:, 3:6] = _slope_of(w, "measured_position")
+                s = w.samples[name]
+                found[:, place] = s.values[np.searchsorted(s.window, np.arange(len(w.first)))]
         found[:, 6:10] /= np.linalg.norm(found[:, 6:10], axis=1, keepdims=True)
         return found
 
@@ -253,18 +252,3 @@ def _cut(rows: Array, first: Places, length: int) -> Array:
 def _in_blocks(rows: Array, block: int) -> Array:
     """Means over blocks (W, blocks, …)."""
     return rows.reshape(len(rows), -1, block, rows.shape[-1]).mean(axis=2)
-
-
-def _begin_of(w: FlightWindows, name: str) -> Array:
-    """The mean of the first samples of each window."""
-    s = w.samples[name]
-    return np.array([s.values[s.window == i][:1].mean(axis=0) for i in range(len(w.first))])
-
-
-def _slope_of(w: FlightWindows, name: str) -> Array:
-    """The slope of the first tenth of a second of each window."""
-    s, found = w.samples[name], []
-    for i in range(len(w.first)):
-        own = (s.window == i) & (s.step * w.step < 0.1)
-        found.append(np.polyfit(s.step[own] * w.step, s.values[own], 1)[0])
-    return np.array(found)

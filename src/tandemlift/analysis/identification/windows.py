@@ -29,6 +29,7 @@ SETTLING = 0.3  # s from the first command until the rotors' speeds are known
 SPIKE = 15.0  # times the usual distance of a sample from the middle of its neighbours
 CLEAR = 6.0  # radii of a rotor above where it stood: no contact, and a ground effect that its theory gives
 FEWEST = 8  # windows
+BEGINNING = 0.2  # of a window: its start must be known from there
 
 
 class Samples(NamedTuple):
@@ -87,14 +88,15 @@ class FlightWindows:
         total = integral[place] + held * (edges - time[place])[:, None]
         return np.diff(total, axis=0) / self.step, -np.diff(held, axis=0) / self.step
 
-    def shortened(self, part: float) -> FlightWindows:
+    def beginnings(self) -> FlightWindows:
         """The first part of every window."""
-        length = max(4, round(part * self.length / self.block)) * self.block
+        length = max(4, round(BEGINNING * self.length / self.block)) * self.block
         return replace(self, length=length, samples={n: s.only(s.step < length) for n, s in self.samples.items()})
 
     def chosen(self, windows: Truths) -> FlightWindows:
-        """Some of the windows, by a truth for each."""
-        samples = {name: s.only(windows[s.window], windows) for name, s in self.samples.items()}
+        """Some of the windows, by a truth for each, with the streams that have samples there."""
+        kept = {name: windows[s.window] for name, s in self.samples.items()}
+        samples = {name: self.samples[name].only(own, windows) for name, own in kept.items() if own.any()}
         return replace(self, first=self.first[windows], samples=samples)
 
 
@@ -135,10 +137,13 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
             cut.pushes[:, place] = np.array([np.interp(amid, log[name].time, v) for v in log[name].values.T]).T
     samples = {name: _samples(cut, log[name]) for name in (*IMU, *MOTION, *JOINTS) if name in log}
     cut = replace(cut, samples=samples)
-    flying = _in_flight(cut, log, mission.vehicle)
-    if flying.sum() < FEWEST:
-        raise InputError(f"{log.source}: flies clear of the floor in {flying.sum()} windows; {FEWEST} are needed")
-    return cut.chosen(flying)
+    usable = _in_flight(cut, log, mission.vehicle) & _have_starts(cut)
+    if usable.sum() < FEWEST:
+        raise InputError(
+            f"{log.source}: flies clear of the floor, with motion and rates measured, in {usable.sum()} windows; "
+            f"{FEWEST} are needed"
+        )
+    return cut.chosen(usable)
 
 
 def _speeds(log: Log, vehicle: VehicleTable) -> Stream:
@@ -186,6 +191,13 @@ def _without_spikes(stream: Stream) -> Stream:
     usual = np.median(off, axis=0)
     kept = np.all((off <= SPIKE * usual) | (usual == 0.0), axis=1)
     return Stream(stream.time[kept], stream.values[kept])
+
+
+def _have_starts(cut: FlightWindows) -> Truths:
+    """Whether each window begins with two samples or more of every stream that tells its start: no gap is there."""
+    samples = cut.beginnings().samples
+    own = (samples[name].window for name in (*MOTION, IMU[1]) if name in samples)
+    return np.all([np.bincount(window, minlength=len(cut.first)) > 1 for window in own], axis=0)
 
 
 def _in_flight(cut: FlightWindows, log: Log, vehicle: VehicleTable) -> Truths:

@@ -28,6 +28,7 @@ from tandemlift.flight.state_variables import state_variable
 from tandemlift.missions import MissionLike, mission_of
 from tandemlift.parts.mechanics.push import push_moment
 from tandemlift.parts.rotors.rotor_lag import by_direction
+from tandemlift.simulation.preparation import leaf_offset
 from tandemlift.simulation.simulation import Simulation
 
 PARTS = ("loop", "body")
@@ -209,6 +210,8 @@ def _inputs_at(r: LinearizationPlan, made: PeriodDerivative) -> Array:
     thrusts = made.steps[0].nodes.values_of(r.graph.thrusts)
     known: dict[str, Any] = {"fly": r.point.numbers, "thrust": thrusts, "offset": np.zeros_like(thrusts)}
     known |= given_at(plan.tables, t, plan.dt)
+    mean = leaf_offset(plan.model, "wind", "velocity")  # the turbulence is a state
+    known["gust"] = np.add(r.point.numbers[mean.at : mean.at + mean.size], known["gust"][: mean.size])
     moment = push_moment(push_sum(plan.tables, t), _attitude(r.point))
     values = []
     for (name, _), ((kind, i, _), *_) in r.inputs:

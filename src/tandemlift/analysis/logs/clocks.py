@@ -31,6 +31,8 @@ from tandemlift.core.types import Array
 
 GROUPS = {"motion": MOTION, "joints": JOINTS}
 """The streams of each source that has, or may have, a clock of its own."""
+TELLING = {"motion": (MOTION[2], IMU[1]), "joints": (JOINTS[0], IMU[0])}
+"""The stream that tells the clock of each source, and that of the inertial unit with which it is compared."""
 
 WINDOW, SHORT = 0.05, 0.02  # s, of attitudes and of forces
 OVERLAP = 8  # windows, at most, that a sample is in
@@ -92,24 +94,26 @@ def clock_of(log: Log, group: str) -> SourceClock:
     Raises:
         InputError: the log lacks a stream that is needed.
     """
-    log.require(*IMU, MOTION[2] if group == "motion" else JOINTS[0])
+    log.require(*TELLING[group])
+    (time, values), unit = (log[name] for name in TELLING[group])
     if group == "motion":
-        return fitted_clock(turn_windows(log[MOTION[2]]), log[IMU[1]])
-    time, forces = log[JOINTS[0]]
-    return fitted_clock(change_windows(Stream(time, forces.reshape(len(time), -1, 3).sum(axis=1))), log[IMU[0]])
+        return fitted_clock(turn_windows(Stream(time, values)), unit)
+    return fitted_clock(change_windows(Stream(time, values.reshape(len(time), -1, 3).sum(axis=1))), unit)
 
 
 def synchronised(log: Log) -> Log:
-    """A log with all stamps on the inertial unit's clock, and a note about the clock of each other source.
+    """A log with all stamps on the inertial unit's clock, and a note about the clock of each other source in it.
 
-    A source whose clock the motion does not tell, to `UNSURE`, keeps its stamps.
+    A source keeps its stamps if the motion does not tell its clock to `UNSURE`, or a stream of `TELLING` is not there.
     """
     for group, names in GROUPS.items():
-        if not {*names, *IMU} <= {*log}:
+        if log.keys().isdisjoint(names):
             continue
-        clock = clock_of(log, group)
+        missing = [name for name in TELLING[group] if name not in log]
+        clock = NOTHING_TOLD if missing else clock_of(log, group)
         told = clock.offset_sigma < UNSURE and clock.correlation > TOLD and log.duration > SPAN
-        note = f"{group}: {clock if told else 'the motion does not tell its clock; its stamps are kept'}"
+        why = f"the log has no {missing[0]}" if missing else "the motion does not tell its clock"
+        note = f"{group}: {clock if told else f'{why}; its stamps are kept'}"
         log = log.aligned(names, clock.offset, clock.drift, clock.about) if told else log
         log = replace(log, notes=(*log.notes, note))
     return log

@@ -64,13 +64,16 @@ def _read_file(file: ChunkFile, names: Sequence[str], coded: Collection[str]) ->
     return table
 
 
-def read(files: Sequence[ChunkFile], names: Sequence[str], *, coded: bool = False) -> pyarrow.Table:
+def read(
+    files: Sequence[ChunkFile], names: Sequence[str], *, coded: bool = False, known: Collection[str] = ()
+) -> pyarrow.Table:
     """Chosen columns of all files as one table, in the order of the rows.
 
     Args:
         files: of a study, in the order of their rows.
         names: of columns; null in rows of a file that lacks one.
         coded: whether columns with few different texts hold codes of them, which takes less memory.
+        known: columns of other files of the study, which these may lack.
 
     Raises:
         InputError: there is no such column, a file is damaged, or PyArrow is not installed (extra: study).
@@ -78,10 +81,9 @@ def read(files: Sequence[ChunkFile], names: Sequence[str], *, coded: bool = Fals
     codes = [name for name in names if name in CODED] if coded else []
     with ThreadPoolExecutor(THREADS) as pool:
         parts = list(pool.map(lambda file: _read_file(file, names, codes), files))
-    known = {name for part in parts for name in part.column_names}
-    if files and any(name not in known for name in names):
-        missing = next(name for name in names if name not in known)
-        raise unknown("column", missing, columns_in(files))
+    here = {name for part in parts for name in part.column_names}.union(known)
+    if files and (missing := [name for name in names if name not in here]):
+        raise unknown("column", missing[0], known or columns_in(files))
     with extra("study", "load_study"):
         import pyarrow
     columns = {name: _joined(parts, name) for name in names}

@@ -174,11 +174,8 @@ class Study:
             InputError: there is no such row, it is not flown yet, or no channels of it were kept.
         """
         number = self._number(row)
-        file = next((file for file in self.files if file.first <= number < file.last), None)
-        if file is None:
-            raise InputError(f"row {number} is not flown yet")
-        names = [name for name in columns_in([file]) if name.startswith(CHANNEL)]
-        kept = read([file], names).slice(number - file.first, 1).to_pylist()[0] if names else {}
+        names = [name for name in self.columns if name.startswith(CHANNEL)]
+        kept = self.rows([number], names)[0] if names else {}
         found = {name.removeprefix(CHANNEL): np.array(values) for name, values in kept.items() if values is not None}
         if not found:
             raise InputError(f"row {number}: no channels of it were kept; fly it: tl.fly(study.mission({number}))")
@@ -186,14 +183,20 @@ class Study:
         return {name: values if len(values) == count else values.reshape(count, -1) for name, values in found.items()}
 
     def rows(self, numbers: Iterable[int], columns: Sequence[str]) -> list[dict[str, Any]]:
-        """Chosen rows that are flown, as dictionaries, in the order given; only their files are read."""
+        """Chosen rows that are flown, as dictionaries, in the order given; only their files are read.
+
+        Raises:
+            InputError: a row is not flown yet, or no row has such a column; where only some have it, others have None.
+        """
         found = dict[int, dict[str, Any]]()
         wanted = list(numbers)
         for file in self.files:
             here = [n for n in wanted if file.first <= n < file.last]
             if here:
-                table = read([file], columns).take([n - file.first for n in here])
+                table = read([file], columns, known=self.columns).take([n - file.first for n in here])
                 found |= dict(zip(here, table.to_pylist(), strict=True))
+        if missing := [n for n in wanted if n not in found]:
+            raise InputError(f"row {missing[0]} is not flown yet")
         return [found[n] for n in wanted]
 
     def _number(self, row: int) -> int:

@@ -71,5 +71,5 @@ def _ranked(rows: StudyRows, quantity: Quantity, most: int) -> Places:
 
 def reasons(rows: StudyRows, worst: list[WorstRow]) -> list[dict[str, Any]]:
     """The columns of the worst rows: outcome, reason, kinds of findings, seed and varied keys."""
-    columns = ["outcome", "reason", "finding_kinds", "seed", *[n for n in rows.study.varied if n in rows.varied]]
+    columns = ["outcome", "reason", "finding_kinds", "seed", *rows.varied]
     return rows.study.rows([int(rows.number[row.place]) for row in worst], columns)

@@ -47,7 +47,7 @@ def linearize(
     """
     import tandemlift as tl
 
-    for option, path, endings in (("--out", out, (".npz", ".json")), ("--figure", figure, DRAWINGS)):
+    for option, path, endings in (("--out", out, (".npz", ".json", ".mat")), ("--figure", figure, DRAWINGS)):
         if path is not None:
             file_path(option, path, *endings)
     count, names = how.pop("count"), {name: how[name] and how[name].split(",") for name in ("inputs", "outputs")}
@@ -85,14 +85,15 @@ def check(mission: str, settings: tuple[str, ...], controller: str | None, stric
     """
     import tandemlift as tl
 
+    path = file_path("--json", file, ".json") if file else None
     with without_flight_warnings():  # the table has the same
         loaded = load(mission, settings, controller)
     results = tl.check(loaded)
     print_checks(results)
-    if file:
+    if path:
         rows = [{**result._asdict(), "margin": result.margin} for result in results]
-        write_file(Path(file), json.dumps(rows, indent=1, ensure_ascii=False))
-        echo(f"checks: {file}")
+        write_file(path, json.dumps(rows, indent=1, ensure_ascii=False))
+        echo(f"checks: {path}")
     if strict and any(result.verdict == "fails" for result in results):
         sys.exit(FAILED)
 
@@ -100,15 +101,24 @@ def check(mission: str, settings: tuple[str, ...], controller: str | None, stric
 @click.command()
 @click.argument("mission", shell_complete=MISSIONS)
 @set_option
+@controller_option("Controller to certify")
 @click.option("--tiers", metavar="A,B,…", help="Some of linear, structured, person, nonlinear, statistics.")
 @click.option("--fly", is_flag=True, help="Confirm each predicted limit by flights.")
 @click.option("--flights", type=click.IntRange(1), default=300, show_default=True, help="Random flights of statistics.")
-@click.option("--arm", type=(float, float, float), metavar="K B M", help="Of the box of arms: N/m, N s/m, kg.")
+@click.option(
+    "--arm", type=(float, float, float), metavar="K B M", help="Largest stiffness, damping and hand mass of an arm."
+)
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME-certificate]")
 @style_option
 @click.option("--strict", is_flag=True, help="Exit with code 3 if a number is below its bar.")
 def certify(
-    mission: str, settings: tuple[str, ...], tiers: str | None, out: str | None, strict: bool, **how: Any
+    mission: str,
+    settings: tuple[str, ...],
+    controller: str | None,
+    tiers: str | None,
+    out: str | None,
+    strict: bool,
+    **how: Any,
 ) -> None:
     """Certify MISSION: margins, limits, a person's arm, failures.
 
@@ -123,6 +133,7 @@ def certify(
     \b
     Files in the results folder (other files there are left alone):
       certificate.html, .json, .pdf   the report; the PDF needs the extra "paper"
+      mission.toml                    the mission with every key
       limits/                         missions that fly beyond each limit
       statistics/                     the study of random flights, which goes on where it stopped
 
@@ -131,7 +142,7 @@ def certify(
     from tandemlift.pictures.report.study.certificate_report import TIERS, certificate_lines, write_certificate
     from tandemlift.pictures.report.study.certificate_report import certify as certified
 
-    loaded, chosen = load(mission, settings), tiers.split(",") if tiers else TIERS
+    loaded, chosen = load(mission, settings, controller), tiers.split(",") if tiers else TIERS
     with results_folder(out, Path("out") / f"{loaded.mission.name}-certificate", ()) as folder:
         with progress_bar("Certifying", "tiers", shown=sys.stderr.isatty()) as shown:
             found = certified(loaded, chosen, folder=folder / "statistics", progress=shown, **how)

@@ -14,9 +14,10 @@ from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import reduce
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple
 
 import numpy as np
+from pydantic import Field, ValidationError
 
 from tandemlift.analysis.logs.clocks import synchronised
 from tandemlift.analysis.logs.log import MOTION, Log, Stream, log_of, stream_channel, without_repeats
@@ -26,46 +27,48 @@ from tandemlift.apps.export.reading import BASE, read_bag, reading_bag, stamp_of
 from tandemlift.apps.export.topics import MISSION
 from tandemlift.core.errors import InputError, extra, shown, unknown
 from tandemlift.core.files import DATA, FLIGHT_FILE, toml_tables
+from tandemlift.core.keys import Table
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
+from tandemlift.missions.refusals import problems_in
 
 DEGREE, STANDARD_GRAVITY = math.pi / 180.0, 9.80665  # m/s² of the unit g, by definition
-UNITS = {"deg": DEGREE, "deg/s": DEGREE, "rpm": math.pi / 30.0, "g": STANDARD_GRAVITY, "kgf": STANDARD_GRAVITY}
-UNITS |= {"mm": 1e-3, "mm/s": 1e-3, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
-UNITS |= dict.fromkeys(("1", "m", "m/s", "m/s²", "m/s^2", "rad", "rad/s", "N", "N m", "s"), 1.0)
-"""Factors of units to those of streams."""
+UNITS = {"deg": ("rad", DEGREE), "deg/s": ("rad/s", DEGREE), "rpm": ("rad/s", math.pi / 30.0)}
+UNITS |= {"g": ("m/s^2", STANDARD_GRAVITY), "m/s²": ("m/s^2", 1.0), "kgf": ("N", STANDARD_GRAVITY)}
+UNITS |= {"mm": ("m", 1e-3), "mm/s": ("m/s", 1e-3), "ms": ("s", 1e-3), "us": ("s", 1e-6), "ns": ("s", 1e-9)}
+"""Units that columns may have beside those of streams: for which of these, and the factor."""
 
 Map = Mapping[str, Any]
 TIME = "time"  # the column of a bag's topic with the stamps of its messages [s], from the first one of all
 OF_ALL = ("time", "time_unit")  # keys that a map may give for all streams at once
 
 
-class Way(NamedTuple):
+class Way(Table):
     """The place of a stream in a log: a table of a map.
 
     Attributes:
         columns: their names, in the order of the stream's.
         topic: of a bag or a ULog; of several, such as one for each joint, the columns come one topic after another, and
             the samples of all are interpolated at the times of the first.
-        unit: of the columns, one of `UNITS`.
+        unit: of the columns: that of the stream, or one of `UNITS` for it; "1" stands for that of the stream.
         scale: factor, or one for each column, beside that of the unit: signs for other axes.
         time: the column of stamps; of a list, the first that is there.
         time_unit: of it.
         frame: "body" for a velocity in body axes, which the attitude turns into world axes.
     """
 
-    columns: list[str]
-    topic: str | list[str] = ""
+    columns: Annotated[tuple[str, ...], Field(min_length=1)]
+    topic: str | tuple[str, ...] = ""
     unit: str = "1"
-    scale: Any = 1.0
-    time: str | list[str] = TIME
+    scale: float | tuple[float, ...] = 1.0
+    time: str | tuple[str, ...] = TIME
     time_unit: str = "s"
-    frame: str = ""
+    frame: Literal["", "body"] = ""
 
     @property
-    def topics(self) -> list[str]:
+    def topics(self) -> tuple[str, ...]:
         """All topics."""
-        return [self.topic] if isinstance(self.topic, str) else self.topic
+        return (self.topic,) if isinstance(self.topic, str) else self.topic
 
 
 def read_log(
@@ -119,27 +122,31 @@ def _map_in(path: Path) -> Map:
 def _ways(given: Map) -> dict[str, list[Way]]:
     """The ways to each stream of a map."""
     common = {key: given[key] for key in OF_ALL if key in given}
-    ways = {}
-    for name in (name for name in given if name not in common):
-        stream_channel(name)
-        ways[name] = [
-            _way(name, common, table) for table in (given[name] if isinstance(given[name], list) else [given[name]])
-        ]
-    return ways
+    return {
+        name: [_way(name, common, table) for table in (tables if isinstance(tables, list) else [tables])]
+        for name, tables in given.items()
+        if name not in common
+    }
 
 
 def _way(name: str, common: Map, table: Any) -> Way:
     """A way to a stream, from its table in a map."""
-    if not isinstance(table, Mapping) or not table.get("columns"):
-        raise InputError(f"{name}.columns is missing: it must be a list of names of columns")
-    for key in table:
-        if key not in Way._fields:
-            raise unknown(f"key of stream {name}", key, Way._fields)
-    way = Way(**{**common, **table})
-    for key, allowed in (("unit", UNITS), ("time_unit", UNITS), ("frame", ("", "body"))):
+    given, own_unit = {**common, **(table if isinstance(table, Mapping) else {})}, stream_channel(name).unit
+    try:
+        way = Way.model_validate(given)
+    except ValidationError as error:
+        problems = problems_in(Way, error, {name: given}, (name,))
+        raise InputError("\n".join(problem.sentence for problem in problems)) from None
+    for key, own in (("unit", own_unit), ("time_unit", "s")):
+        allowed = (own, *(unit for unit, (other, _) in UNITS.items() if other == own), "1")
         if getattr(way, key) not in allowed:
             raise InputError(f"{name}.{key} = {shown(getattr(way, key))}: must be one of {', '.join(allowed)}")
     return way
+
+
+def _factor(unit: str) -> float:
+    """The factor from a unit to that of the stream."""
+    return UNITS[unit][1] if unit in UNITS else 1.0
 
 
 def _log(path: Path, tables: LogTables, ways: Mapping[str, list[Way]], asked: Iterable[str]) -> Log:
@@ -173,9 +180,10 @@ def _stream(place: str, way: Way, tables: LogTables) -> Stream | None:
         return None
     time, *_ = (part.time for part in parts)
     values = np.hstack([np.array([np.interp(time, part.time, v) for v in part.values.T]).T for part in parts])
-    if np.ndim(way.scale) and len(way.scale) * len(parts) != values.shape[1]:
+    if isinstance(way.scale, tuple) and len(way.scale) * len(parts) != values.shape[1]:
         raise InputError(f"{place}: scale has {len(way.scale)} numbers for {values.shape[1] // len(parts)} columns")
-    return Stream(time, values * np.tile(way.scale, len(parts) if np.ndim(way.scale) else 1) * UNITS[way.unit])
+    scale = np.array(way.scale * len(parts) if isinstance(way.scale, tuple) else way.scale)
+    return Stream(time, values * scale * _factor(way.unit))
 
 
 def _part(place: str, way: Way, tables: LogTables, topic: str) -> Stream:
@@ -187,8 +195,8 @@ def _part(place: str, way: Way, tables: LogTables, topic: str) -> Stream:
         except KeyError:
             raise InputError(f"{place}: {unknown('column', name, tables.columns(topic))}") from None
 
-    stamps = [way.time] if isinstance(way.time, str) else way.time
-    time = column(next((name for name in stamps if name in tables.columns(topic)), stamps[0])) * UNITS[way.time_unit]
+    stamps = (way.time,) if isinstance(way.time, str) else way.time
+    time = column(next((name for name in stamps if name in tables.columns(topic)), stamps[0])) * _factor(way.time_unit)
     values = [column(name) for name in way.columns]
     rows = np.hstack([v.reshape(len(time), -1) for v in values])
     some = np.isfinite(rows).any(axis=1)

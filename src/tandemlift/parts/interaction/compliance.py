@@ -18,7 +18,13 @@ from tandemlift.core.algebra import absolute, chosen, clip, maximum, minimum, sq
 from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Absent, Vec3
-from tandemlift.parts.interaction.admittance import Admittance, anchored, soft_threshold
+from tandemlift.parts.interaction.admittance import (
+    Admittance,
+    AdmittanceState,
+    admittance_response,
+    anchored,
+    soft_threshold,
+)
 from tandemlift.parts.interaction.policy import Policy, with_policy
 from tandemlift.parts.interaction.requests import ReferenceVelocity
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, V, low_pass_step
@@ -182,11 +188,12 @@ def with_horizontal_limit(a: Vec3, limit: Number) -> Vec3:
 
 
 @law
-def admittance_acceleration(k: Compliance, m: ComplianceState, force: Vec3, damping: Number) -> Vec3:
+def limited_response(k: Compliance, m: ComplianceState, force: Vec3, damping: Number) -> Vec3:
     """The admittance's response [m/s²] to a force beyond the threshold, within the limit along each axis."""
     a = k.admittance
-    pull = force - (a.damping + Vec3(damping, damping, damping)) * m.velocity - a.stiffness * (m.position - m.anchor)
-    return clip(pull * a.inverse_mass, -k.limits.acceleration, k.limits.acceleration)
+    damped = a._replace(damping=a.damping + Vec3(damping, damping, damping))
+    response = admittance_response(damped, AdmittanceState(m.position, m.velocity, m.anchor), force)
+    return clip(response.acceleration, -k.limits.acceleration, k.limits.acceleration)
 
 
 @law(absent="response")
@@ -231,7 +238,7 @@ def compliance_step(
     filtered = low_pass_step(k.input_filter, m.filtered, push)
     beyond, band = dead_band(k.band, m.band, filtered.value, enabled, dt)
     output = low_pass_step(k.output_filter, m.output, beyond)
-    response = admittance_acceleration(k, m, with_policy(eased, output.value), damping)
+    response = limited_response(k, m, with_policy(eased, output.value), damping)
     free = led_by(lead, k.limits, m.velocity, enabled, response)
     bounded = speed_limited(free, m.velocity, k.limits.speed, k.limits.braking_gain)
     target = within(boundary, with_horizontal_limit(bounded, horizontal))

@@ -17,11 +17,12 @@ from tandemlift.pictures.drawing.style import BLUE, GREY, INK, look, page_figure
 from tandemlift.pictures.report.page import DASH, Cell, PageTable, code, number, shown_figures, strong, write_page
 
 PAGE = "identification.html"
+WIDEST = 100.0  # %, change of a number that is drawn: a drag that is nearly 0 in the mission changes by thousands
 CAPTIONS = {
     "estimates": Caption(
         "Estimates over the values of the mission",
         "Change of each number from the mission's value, with its interval of 95 %. Hollow: not excited by the flight. "
-        "Numbers that are 0 in the mission are left out.",
+        "Arrows: beyond the figure. Numbers that are 0 in the mission are left out.",
         "A row for each identified number with its relative change and interval.",
     ),
     "misfit": Caption(
@@ -107,10 +108,12 @@ def draw_estimates(rows: Sequence[Mapping[str, Any]]) -> Figure:
     for place, r in enumerate(reversed(shown)):
         low, value, high = (100.0 * (r[name] / r["start"] - 1.0) for name in ("low", "value", "high"))
         axes.plot([low, high], [place, place], color=BLUE, lw=1.6)
-        axes.plot(value, place, "o", color=INK, ms=3.0, mfc=INK if r["excited"] else "none")
+        marker = "<" if value < -WIDEST else ">" if value > WIDEST else "o"
+        at = min(max(value, -WIDEST), WIDEST)
+        axes.plot(at, place, marker, color=INK, ms=3.0, mfc=INK if r["excited"] else "none", clip_on=False)
     axes.set_yticks(range(len(shown)), [r["key"] for r in reversed(shown)])
     axes.axvline(0.0, color=GREY, lw=0.8)
-    axes.set_xlim(-100.0, 100.0)
+    axes.set_xlim(-WIDEST, WIDEST)
     axes.set_xlabel("change from the mission (%)")
     return figure
 

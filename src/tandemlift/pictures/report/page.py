@@ -118,7 +118,11 @@ def number(value: object) -> str:
 
 
 def split_unit(name: str) -> tuple[str, str]:
-    """A metric's name in words, and its unit ('' if it has none, or several)."""
+    """The name of a metric, or of a component as `position_rmse_m.0`, in words; its unit ('' for none, or several)."""
+    above, _, place = name.rpartition(".")
+    metric = metric_of(above)
+    if place.isdecimal() and int(place) < len(metric.components):
+        return f"{split_unit(above)[0]}, {metric.components[int(place)]}", metric.unit_of(int(place))
     metric = metric_of(name)
     unit = "" if metric.units else metric.unit_of(0)
     stem = name.removesuffix("_" + re.sub("[ /]", "_", unit.lower())) if unit else name

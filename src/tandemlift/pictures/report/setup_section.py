@@ -167,10 +167,10 @@ def _sensors(flight: Flight) -> Iterator[Row]:
 
 
 def _estimate(e: Any) -> str:
-    tare = "no tare"
-    if e.tare_start is not None:
+    tare = f"tare in steady hover, for {describe(e.tare_duration, 's')}" if e.tare == "hover" else "no tare"
+    if e.tare == "at-time" and e.tare_start is not None:
         tare = f"tare from {describe(e.tare_start)} to {describe(e.tare_start + e.tare_duration, 's')}"
-        tare += ", which also finds the payload’s mass" if e.identify_mass else ""
+    tare += ", which also finds the payload’s mass" if e.identify_mass else ""
     trust = f"not used while sensors disagree by {describe(e.disagreement_limit, 'N')} or more"
     return f"low-pass filter of {describe(e.push_bandwidth, 'rad/s')}; {tare}; {trust}"
 

@@ -1,5 +1,6 @@
 """Tuning as a whole, and training of a policy: a known best gain, evidence on holdout draws, files, and bad input."""
 
+import itertools
 import json
 import math
 
@@ -8,12 +9,14 @@ import pytest
 from click.testing import CliRunner
 
 import tandemlift as tl
-from tandemlift.analysis.studies.tuning.candidates import Trial, cost_of
+from tandemlift.analysis.studies.tuning.candidates import Cost, Trial, cost_of
+from tandemlift.analysis.studies.tuning.draws import DrawSource, MissionSource, default_study
 from tandemlift.analysis.studies.tuning.goals import Goal
 from tandemlift.analysis.studies.tuning.result import EVIDENCE_FILE
 from tandemlift.apps.cli.main import cli
 from tandemlift.core.errors import InputError
 from tandemlift.parts.interaction.policy import PolicyTable
+from tandemlift.pictures.report.study.tuning_figures import draw_search
 
 STIFFNESS = 4.0  # 1/s²
 DROP = {  # a mass that is let go 0.1 m above its reference, held by a spring and a damper
@@ -92,6 +95,21 @@ def test_holdout_draws_are_none_of_the_search_and_old_and_new_fly_the_same_ones(
     assert found.evidence.new.values[0][3, 0] == again.metrics()["position_rmse_m"][2]
 
 
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"plant.inertia_scale": (1.2, 1.0, 1.0)},
+        {"plant.inertia_scale.0": 1.2},
+        {"plant": {"inertia_scale": [1.2, 1.0, 1.0]}},
+    ],
+    ids=str,
+)
+def test_a_key_that_is_set_is_not_drawn_in_whatever_form_it_is_given(changes):
+    source = MissionSource("hover", changes)
+    draws = DrawSource(default_study(source, 2, seed=0), "hover", source.changes).search_draws()
+    assert [set(draw.changes) for draw in draws] == [{"plant.mass_scale", "mission.seed"}] * 2
+
+
 def test_a_bad_start_is_left_because_bad_outcomes_count_first():
     """From the paper's gains, with which the vehicle turns over on its rotors, to ones that fly."""
     paper = {key: getattr(tl.load_mission("paper").controller.gains, key) for key in ("xi", "lambda_1", "lambda_2")}
@@ -118,6 +136,7 @@ def test_findings_are_bad_outcomes_if_strict_and_several_goals_need_targets_wher
     goals = {"position_rmse_m.2": 0.01, "attitude_rmse_rad": 0.1}
     lax, strict = (quick(goals=goals, changes=far, budget=0, strict=strict) for strict in (False, True))
     assert (lax.new, lax.changes, lax.is_better) == (lax.old, {}, False), "without candidates the present values stay"
+    assert {found.improved for found in lax.evidence.comparisons} == {0.0}, "no difference is no improvement"
     assert lax.evidence.costs[0].bad == 0
     assert strict.evidence.costs[0].bad == 6
     assert set(strict.evidence.old.outcomes) == {"findings"}
@@ -138,6 +157,18 @@ def test_the_worst_draw_counts_beside_the_mean_and_the_mean_beside_the_worst():
     assert even[1] < uneven[1] < all_worst[1]
     for i, aim in enumerate(("mean", "worst")):  # of twice the values twice the cost
         assert cost(2, 6, aim=aim).ratio == pytest.approx(2.0 * uneven[i])
+
+
+def test_costs_are_ordered_by_bad_outcomes_and_then_by_ratio_which_may_be_negative():
+    costs = [Cost(bad, ratio) for bad in (0, 1) for ratio in (-1e6, -2.0, -1.0, -0.5, 0.0, 0.5, 1e6)]
+    ranks = [cost.rank for cost in costs]
+    assert all(low < high for low, high in itertools.pairwise(ranks))
+
+
+def test_the_figure_of_a_search_shows_costs_below_zero(dropped):
+    ratios = [-1.1, -0.9, -2.0]
+    shown = draw_search(dropped._replace(history=tuple(Cost(0, ratio) for ratio in ratios))).axes[0].lines[0]
+    assert shown.get_ydata().tolist() == ratios
 
 
 def test_ctrl_c_keeps_the_best_so_far_and_writes_it_as_unfinished(tmp_path):

@@ -88,6 +88,11 @@ def with_keys(said: Mapping[str, str], keys: Iterable[str], table: str) -> dict[
     return found
 
 
+def overlap(key: str, other: str) -> bool:
+    """Whether two dotted keys are one, or one of them holds the other."""
+    return f"{key}.".startswith(f"{other}.") or other.startswith(f"{key}.")
+
+
 def columns_of(key: str, value: object) -> Iterator[tuple[str, Any]]:
     """A value as scalar columns: the entries of a list by their numbers, those of a table by their names."""
     if isinstance(value, Mapping):

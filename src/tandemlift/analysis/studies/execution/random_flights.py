@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from tandemlift.analysis.studies.design.plan import LONGER, StudyPlan
 from tandemlift.analysis.studies.design.settings import REFUSED
 from tandemlift.analysis.studies.design.statistics import upper_bound
 from tandemlift.analysis.studies.design.study_files import load_plan
@@ -35,30 +36,51 @@ def probability_bound(count: int, flights: int) -> float:
     return upper_bound(count, flights)
 
 
-def random_flights(mission: Mission, folder: Path, flights: int) -> list[RandomFlight]:
-    """Fly a mission with parameters drawn at random; what the folder already holds is not flown again.
+def random_plan(mission: Mission, folder: Path, flights: int) -> StudyPlan:
+    """The plan of flights of a mission with parameters drawn at random; a force on it stays as it is.
 
     Args:
         mission: to be flown; it is written beside the folder.
         folder: of the study.
         flights: their number.
-
-    Raises:
-        InputError: the folder holds another study, or an optional package is missing (extra: study).
     """
     file = folder.parent / f"{mission.mission.name}.toml"
     write_file(file, format_toml(tables_of(mission)))
     uniform = {"distribution": "uniform"}
+    around = {**uniform, "relative": True}
     draw: dict[str, Any] = {
-        "plant.mass_scale": {**uniform, "low": 1.0 - MASS, "high": 1.0 + MASS},
-        "plant.inertia_scale": {**uniform, "low": 1.0 - INERTIA, "high": 1.0 + INERTIA, "count": 3},
+        "plant.mass_scale": {**around, "low": 1.0 - MASS, "high": 1.0 + MASS},
+        "plant.inertia_scale": {**around, "low": 1.0 - INERTIA, "high": 1.0 + INERTIA, "count": 3},
     }
     if mission.actuators.model == "rotors":
         delay = mission.actuators.delay
         draw["actuators.delay"] = {**uniform, "low": delay, "high": delay + DELAY}
     persons = {"persons": "random"} if mission.person.model in LEADS else {}
     about = {"name": f"{mission.mission.name}-certificate", "missions": [str(file)], "draws": flights, **persons}
-    plan = load_plan({"study": about, "draw": draw, "keep": {"metrics": ["outcome", "findings"]}})
+    force = mission.disturbance.force
+    own = {"disturbance.force": list(force)} if any(force) else {}
+    return load_plan({"study": about, "set": own, "draw": draw, "keep": {"metrics": ["outcome", "findings"]}})
+
+
+def what_is_drawn(plan: StudyPlan) -> tuple[str, str]:
+    """The keys that a plan from `random_plan` draws, and from which ranges: a sentence each."""
+    keys, longer, person = ", ".join(plan.rows(0, 1)[0].varied), "", ""
+    if plan.persons:
+        longer = f"; mission.duration is {LONGER:g} times as long, because some persons are slow"
+        person = '; a person as of study.persons = "random", with up to 1 N of wind if the mission has no force'
+    return (
+        f"Drawn: mission.seed, {keys}. All else is as written{longer}.",
+        f"Mass within ±{100 * MASS:g} % of the mission's, inertia about each axis within ±{100 * INERTIA:g} %, up to "
+        f"{1e3 * DELAY:g} ms of further delay with real rotors{person}.",
+    )
+
+
+def random_flights(plan: StudyPlan, folder: Path) -> list[RandomFlight]:
+    """Fly a plan from `random_plan`; what the folder already holds is not flown again.
+
+    Raises:
+        InputError: the folder holds another study, or an optional package is missing (extra: study).
+    """
     store = open_folder(plan, folder)
     fly_study(plan, store)
     from pyarrow import parquet  # which the folder needs

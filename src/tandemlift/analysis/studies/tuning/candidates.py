@@ -93,8 +93,8 @@ class Cost(NamedTuple):
 
     @property
     def rank(self) -> float:
-        """One number that orders costs: first by bad outcomes, then by ratio, whose term stays below 1."""
-        return self.bad + self.ratio / (1.0 + self.ratio)
+        """One number that orders costs: first by bad outcomes, then by ratio, whose term stays between -1 and 1."""
+        return 2 * self.bad + self.ratio / (1.0 + abs(self.ratio))
 
 
 def cost_of(trial: Trial, goals: Sequence[Goal], scales: Sequence[Array], aim: Aim) -> Cost:

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tandemlift.analysis.studies.design.keys import changes_in, overlap
 from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.core.errors import InputError
@@ -88,7 +89,7 @@ class DrawSource:
     """
 
     def __init__(self, study: Study, name: str, base: Mapping[str, Any]) -> None:
-        self._study, self._base = study, base
+        self._study, self._base = study, changes_in(base)
         self.plan = load_plan(study)
         flown = [variant.mission for variant in self.plan.variants]
         if not isinstance(study, Mapping) and (flown != [name] or self.plan.variants[0].engine != "compiled"):
@@ -140,7 +141,7 @@ def _named(study: Study) -> str:
 
 
 def default_study(source: MissionSource, count: int, seed: int) -> dict[str, Any]:
-    """The tables of a study that draws values unknown to the pilot of a mission, except for changed keys.
+    """The tables of a study that draws values unknown to the pilot of a mission, except where changes touch them.
 
     Args:
         source: of the mission.
@@ -158,11 +159,12 @@ def default_study(source: MissionSource, count: int, seed: int) -> dict[str, Any
         drawn |= {f"vehicle.quadrotors.{i}.{lag}": _factor(LAGS) for i in quadrotors for lag in ("lag_up", "lag_down")}
     if mission.actuators.model == "rotors" and mission.actuators.delay:
         drawn["actuators.delay"] = {"distribution": "choice", "among": list(DELAYS), "relative": True}
+    changed = changes_in(source.changes)
     study = {"name": "draws", "missions": [source.name], "draws": count, "seed": seed}
     return {
         "study": study if source.controller is None else {**study, "controllers": [source.controller]},
         "set": source.changes,
-        "draw": {key: drawing for key, drawing in drawn.items() if key not in source.changes},
+        "draw": {key: drawing for key, drawing in drawn.items() if not any(overlap(key, one) for one in changed)},
     }
 
 

@@ -83,13 +83,14 @@ def evidence_of(old: Trial, new: Trial, goals: Sequence[Goal], scales: Sequence[
 
 def _compared(label: str, goal: Goal, old: Array, new: Array) -> Comparison:
     differences = finite(new - old)
+    improved = differences > 0.0 if goal.is_larger_better else differences < 0.0
     return Comparison(
         label,
         _median_and_worst(goal, old),
         _median_and_worst(goal, new),
         float(np.median(differences)) if len(differences) else math.nan,
         median_interval(differences),
-        float(((differences > 0.0) == goal.is_larger_better).mean()) if len(differences) else math.nan,
+        float(improved.mean()) if len(differences) else math.nan,
     )
 
 

@@ -6,6 +6,7 @@ import os
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
+from tandemlift.analysis.studies.design.keys import overlap
 from tandemlift.analysis.studies.tuning.candidates import Aim
 from tandemlift.analysis.studies.tuning.draws import (
     CHOICE_SEED,
@@ -207,5 +208,5 @@ def _check_apart(draws: Sequence[Draw], parameters: Sequence[Tunable]) -> None:
     """Reject draws that change a searched key."""
     for key in sorted({key for draw in draws for key in draw.changes}):
         for p in parameters:
-            if f"{p.key}.".startswith(f"{key}.") or key.startswith(f"{p.key}."):
+            if overlap(p.key, key):
                 raise InputError(f"--parameter {p.key}: the draws change {key}; a key is either searched or drawn")

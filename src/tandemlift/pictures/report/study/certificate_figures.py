@@ -46,8 +46,8 @@ CAPTIONS = {
     ),
     "limits": Caption(
         "Limits of parameters, over the values of the mission",
-        "Bars: from the value at which the vehicle oscillates below it to that above it, by linear models; no end: "
-        "none within a factor of 50. Circles: the limits that flights found by bisection, without a model.",
+        "Bars: from the value at which the vehicle oscillates below it to that above it, by linear models; an arrow: "
+        "no limit on that side. Circles: the limits that flights found by bisection, without a model.",
         "Horizontal bars of the tolerated range of each parameter, with circles where flights found the limit.",
     ),
     "hand": Caption(
@@ -58,12 +58,13 @@ CAPTIONS = {
     ),
     "map": Caption(
         "Stiffest arm over virtual mass and damping",
-        "The stiffness [N/m] of a massless arm from which on the vehicle in its hand oscillates, by linear models. "
+        "The stiffness [N/m] of a massless arm above which the vehicle that it holds oscillates, by linear models. "
         "Dot: the mission. Circles and crosses: flights with the arm of the black line, stable and oscillating.",
         "A map of the largest stable arm stiffness over virtual mass and virtual damping.",
     ),
 }
 MOST_PHASE = 120.0  # deg
+BESIDE = 1.3  # times the farthest limits, where the axis ends
 
 
 def certificate_figures(certificate: Certificate) -> dict[str, Figure]:
@@ -123,31 +124,36 @@ def draw_limits(claims: list[Claim]) -> Figure:
         rows.setdefault(claim.parameter, []).append(claim)
     figure = page_figure(0.9 + 0.28 * len(rows))
     axes = figure.add_subplot()
+    ends = [1.0, *(end for claim in claims if claim.range for end in claim.range if end)]
+    axes.set_xlim(min(ends) / BESIDE, max(ends) * BESIDE)
     for place, found in enumerate(rows.values()):
         _limit_row(axes, -place, found)
     axes.set_yticks([-place for place in range(len(rows))], list(rows))
     axes.axvline(1.0, color=INK, lw=0.8)
     axes.set_xscale("log")
-    axes.margins(x=0.03)
     axes.xaxis.set_major_formatter("{x:g}")
     axes.xaxis.set_minor_formatter("{x:g}")
-    axes.set_xlabel("limit over the value of the mission (1)")
+    axes.set_xlabel("limit / nominal value")
     return figure
 
 
 def _limit_row(axes: Axes, height: float, claims: list[Claim]) -> None:
-    low, high = 1.0, 1.0
-    axes.use_sticky_edges = False
-    for claim in claims:
-        assert claim.range
-        limit, flown = claim.range
-        low, high = min(low, limit), max(high, limit)
+    low, high = axes.get_xlim()
+    ranges = [claim.range for claim in claims if claim.range]
+    least, most = min(limit for limit, _ in ranges), max(limit for limit, _ in ranges)
+    if least < 1.0:
+        low = least
+    else:
+        axes.plot(low, height, "<", color=BLUE, ms=5.0, clip_on=False, zorder=4)
+    if most > 1.0:
+        high = most
+    else:
+        axes.plot(high, height, ">", color=BLUE, ms=5.0, clip_on=False, zorder=4)
+    axes.barh(height, high - low, left=low, height=0.5, color=BLUE, alpha=0.35, zorder=2)
+    for limit, flown in ranges:
+        axes.plot([limit] * 2, [height - 0.3, height + 0.3], color=BLUE, lw=1.4, zorder=3)
         if flown is not None:
             axes.plot(flown, height, "o", color=VERMILLION, ms=4.5, mfc=PAPER, mew=1.0, zorder=4)
-    axes.barh(height, high - low, left=low, height=0.5, color=BLUE, alpha=0.35, zorder=2)
-    for claim in claims:
-        assert claim.range
-        axes.plot([claim.range[0]] * 2, [height - 0.3, height + 0.3], color=BLUE, lw=1.4, zorder=3)
 
 
 @styled
@@ -194,13 +200,15 @@ def draw_map(tier: Tier) -> Figure:
 
 
 def draw_linear_model(connected: LinearModel, path: Path) -> Path:
-    """Draw the modes of a model and its response to a push into a file.
+    """Draw the modes of a model and a response into a file: that of its position to a push, or of what it has first.
 
     Raises:
         InputError: it has too many states.
     """
     if len(connected.states) > MOST_STATES:
         raise InputError(f"{path}: {len(connected.states)} states are too many to draw; at most {MOST_STATES}")
-    names = ("push_force" if connected.of == "loop" else "disturbance_force", "position")
+    inputs, outputs = ([v.name.rpartition("_")[0] for v in vs] for vs in (connected.inputs, connected.outputs))
+    usual = "push_force" if connected.of == "loop" else "disturbance_force"
+    names = usual if usual in inputs else inputs[0], "position" if "position" in outputs else outputs[0]
     response = Response(" → ".join(names).replace("_", " "), *axis_responses(connected, *names))
     return save(draw(title_of(connected), [mode.s for mode in modes_of(connected).modes], response), path)

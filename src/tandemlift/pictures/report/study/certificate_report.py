@@ -6,6 +6,7 @@ import json
 import math
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
@@ -22,13 +23,15 @@ from tandemlift.core.errors import InputError, extra, unknown
 from tandemlift.core.files import DATA, atomic_write
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Progress
-from tandemlift.missions import MissionLike, mission_of
+from tandemlift.missions import MissionLike, format_toml, mission_of, tables_of
 from tandemlift.pictures.drawing.style import save
 from tandemlift.pictures.report.page import shown_figures, write_page
 from tandemlift.pictures.report.paper_report import check_typesetting, typeset
 from tandemlift.pictures.report.study.certificate_figures import CAPTIONS, certificate_figures
+from tandemlift.pictures.report.study.words import command
 
 PAGE, JSON, PDF, SOURCE = "certificate.html", "certificate.json", "certificate.pdf", "report.typ"
+MISSION = "mission.toml"
 NONE, MINUS = "none", "−"
 TIERS = ("linear", "structured", "person", "nonlinear", "statistics")
 PACKAGES = ("tandemlift", "numpy", "scipy", "slycot", "cvxpy")
@@ -86,11 +89,13 @@ def certify(
             "nonlinear": lambda: nonlinear_tier(mission, fly=fly),
             "statistics": lambda: statistics_tier(mission, study, flights),
         }
-        for done, name in enumerate(chosen, 1):
-            found.append(with_limits(forms[name](), mission, fly))
+        for done, name in enumerate(chosen):
             if shown:
                 shown(done, len(chosen))
-    return Certificate(mission.mission.name, tuple(found), _versions())
+            found.append(with_limits(forms[name](), mission, fly))
+        if shown:
+            shown(len(chosen), len(chosen))
+    return Certificate(mission.mission.name, tuple(found), _versions(), tables_of(mission))
 
 
 def _versions() -> dict[str, str]:
@@ -104,14 +109,17 @@ def _versions() -> dict[str, str]:
 
 
 def write_certificate(certificate: Certificate, folder: Path) -> list[Path]:
-    """Write a certificate into a folder, which is made; the PDF needs the extra "paper".
+    """Write a certificate into a folder, which is made, with its mission; the PDF needs the extra "paper".
 
     Returns:
         The files: page, JSON, and PDF if there is one.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    for name, text in ((n, t) for tier in certificate.tiers for n, t in tier.files.items()):
+    mission = format_toml(certificate.tables)
+    files = {MISSION: mission} | {n: t for tier in certificate.tiers for n, t in tier.files.items()}
+    for name, text in files.items():
         _write(folder / name, text)
+    certificate = _placed(certificate, {f"tandemlift run {name}": command("run", folder / name) for name in files})
     certificate.save(folder / JSON)
     figures = certificate_figures(certificate)
     tiers = [
@@ -126,14 +134,16 @@ def write_certificate(certificate: Certificate, folder: Path) -> list[Path]:
         missed=[_name(claim) for claim in certificate.missed],
         verdict=None,
         tiers=tiers,
+        mission=mission,
+        repeat=command("certify", folder / MISSION, "--tiers", ",".join(t.name for t in certificate.tiers)),
         figures=shown_figures(figures, CAPTIONS),
         versions=f"Computed with {versions}.",
     )
-    files = [page, folder / JSON]
+    written = [page, folder / JSON]
     try:
         check_typesetting()
     except InputError:
-        return files
+        return written
     parts = folder / "pdf"
     for name, figure in figures.items():
         save(figure, parts / f"{name}.pdf")
@@ -142,7 +152,16 @@ def write_certificate(certificate: Certificate, folder: Path) -> list[Path]:
     _write(parts / "report.json", json.dumps(data, ensure_ascii=False, allow_nan=False))
     _write(parts / SOURCE, (DATA / "report" / "certificate.typ").read_text("utf-8"))
     typeset(parts, folder / PDF)
-    return [*files, folder / PDF]
+    return [*written, folder / PDF]
+
+
+def _placed(certificate: Certificate, commands: Mapping[str, str]) -> Certificate:
+    """A certificate with other commands, by those that it has."""
+    tiers = [
+        replace(tier, claims=tuple(c._replace(command=commands.get(c.command, c.command)) for c in tier.claims))
+        for tier in certificate.tiers
+    ]
+    return replace(certificate, tiers=tuple(tiers))
 
 
 def _write(path: Path, text: str) -> None:

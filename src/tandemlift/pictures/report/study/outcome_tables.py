@@ -115,7 +115,7 @@ def _varied(rows: StudyRows, place: int, said: dict[str, Any]) -> list[Cell]:
     """What varied in a row: the groups it belongs to, keys with their values as pairs, and the seed."""
     telling = [name for name in WHO if len(rows.labels[name].names) > 1]
     parts = [rows.labels[name].names[rows.labels[name].codes[place]] for name in telling]
-    names = [name for name in rows.study.varied if name in rows.varied]
+    names = [name for name in rows.study.varied if said.get(name) is not None]
     values = [(name, _shown(said[name], shown_column(name).unit)) for name in names[:MOST_VALUES]]
     more = [f"and {len(names) - MOST_VALUES} more"] if len(names) > MOST_VALUES else []
     return [*filter(None, parts), *values, f"seed {said['seed']}", *more]

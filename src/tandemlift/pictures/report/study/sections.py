@@ -12,7 +12,7 @@ import numpy as np
 from tandemlift.analysis.studies.design.keys import changes_in
 from tandemlift.analysis.studies.design.settings import REFUSED
 from tandemlift.analysis.studies.design.statistics import Share, finite, quantile, share, upper_bound
-from tandemlift.analysis.studies.study_rows import BAD_OUTCOMES, StudyRows
+from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.analysis.studies.table import Study
 from tandemlift.core.errors import shown
 from tandemlift.core.findings import KIND_OF
@@ -88,10 +88,8 @@ def what_was_flown(study: Study) -> Iterator[tuple[str, str]]:
     for key, distribution in plan.drawn.items():
         said = distribution.model_dump(exclude_defaults=True)
         kind = said.pop("distribution")
-        yield (
-            "Drawn",
-            f"{key}: {kind}, {', '.join(f'{name} {shown(value)}' for name, value in said.items())}{_unit(key)}",
-        )
+        numbers = ", ".join(f"{name} {shown(value)}" for name, value in said.items())
+        yield "Drawn", f"{key}: {kind}, {numbers}{'' if distribution.relative else _unit(key)}"
     if plan.drawn:
         yield "Draws", f"{plan.point_count}, sampling {settings.study.sampling}, seed {settings.study.seed}"
     if settings.study.seeds > 1:
@@ -201,7 +199,7 @@ def influence(rows: StudyRows) -> PageTable | None:
     """The rank correlation of each varied column with each quantity; None if nothing varies."""
     if not rows.ranked:
         return None
-    titles = [name if name == BAD_OUTCOMES else split_unit(name)[0] for name in rows.ranked]
+    titles = [split_unit(name)[0] for name in rows.ranked]
     columns = list(dict.fromkeys(name for found in rows.ranked.values() for name in found))
     lines = [
         (name, *(number(round(found[name], 3)) if name in found else DASH for found in rows.ranked.values()))

@@ -25,11 +25,11 @@ CAPTIONS = {
     "evidence": Caption(
         "Evidence",
         "Share of holdout draws whose value is at most that on the axis: present values (grey) and new values (blue). "
-        "The farther left a curve, the better; one that does not reach 100 % has bad outcomes.",
+        "The farther left a curve, the better (of a clearance, the farther right); one that does not reach 100 % has "
+        "bad outcomes.",
         "A panel for each component of the goals: two curves rising from 0 to 100 %, present and new values.",
     ),
 }
-AXES = "xyz"
 MOST_PANELS, ROW = 9, 1.75  # panels, in
 FEW = 1e-3  # spread of a value below which an axis is widened
 WIDE = 30.0  # ratio of costs from which an axis is logarithmic
@@ -52,7 +52,8 @@ def draw_search(found: Tuning) -> Figure:
     ratios = np.array([cost.ratio if cost.bad == least_bad else np.nan for cost in found.history])
     lowest = np.fmin.accumulate(ratios)
     known = ratios[np.isfinite(ratios)]
-    top = float(np.quantile(known, 0.9) * 1.5)
+    high = float(np.quantile(known, 0.9))
+    top = high + 0.5 * abs(high)
     number = np.arange(len(ratios))
     shown = np.where(np.isfinite(ratios), np.minimum(ratios, top), top)
     ax.plot(number, shown, ".", ms=2.0, color=LIGHT_BLUE, label="candidates", rasterized=True)
@@ -96,22 +97,13 @@ def draw_evidence(found: Tuning) -> Figure:
     return figure
 
 
-def axis_label(label: str) -> tuple[str, str]:
-    """A component of a goal in words, and its unit."""
-    above, _, last = label.rpartition(".")
-    if not last.isdigit():
-        return split_unit(label)
-    words, unit = split_unit(above)
-    return f"{words}, {AXES[int(last)] if int(last) < len(AXES) else last}", unit
-
-
 def shown_scale(unit: str, largest: float) -> tuple[float, str]:
     """A factor and a unit in which a value of this size reads well: millimetres for small lengths."""
     return (1e3, "mm") if unit == "m" and largest < 1.0 else (1.0, unit)
 
 
 def _distribution(ax: Axes, label: str, before: Array, after: Array) -> None:
-    words, unit = axis_label(label)
+    words, unit = split_unit(label)
     known = np.concatenate([x[np.isfinite(x)] for x in (before, after)])
     scale, unit = shown_scale(unit, float(np.abs(known).max()) if len(known) else 0.0)
     looks: tuple[dict[str, Any], ...] = ({"color": GREY, "lw": 1.6}, {"color": BLUE, "lw": 1.3})

@@ -20,10 +20,11 @@ from tandemlift.pictures.report.page import (
     code,
     number,
     shown_figures,
+    split_unit,
     write_page,
 )
 from tandemlift.pictures.report.study import tuning_figures
-from tandemlift.pictures.report.study.tuning_figures import axis_label, shown_scale
+from tandemlift.pictures.report.study.tuning_figures import shown_scale
 
 HEADS = ("old median", "worst", "new median", "worst", "difference", "95 % from", "to")  # of the text
 FEW_DRAWS = 12  # draws whose changes are listed
@@ -100,7 +101,7 @@ def _evidence(found: Tuning) -> list[tuple[str, str, list[str]]]:
     """Old against new: label, name and cells of each component."""
     rows = []
     for c in found.evidence.comparisons if found.evidence else ():
-        words, unit = axis_label(c.label)
+        words, unit = split_unit(c.label)
         scale, unit = shown_scale(unit, max((abs(x) for x in (*c.old, *c.new) if not math.isnan(x)), default=0.0))
         interval = DASH if c.interval is None else f"{number(c.interval[0] * scale)} to {number(c.interval[1] * scale)}"
         cells = [DASH if math.isnan(x) else number(x * scale) for x in (*c.old, *c.new, c.difference)]

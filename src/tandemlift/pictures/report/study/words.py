@@ -35,9 +35,7 @@ class QuantityDisplay(NamedTuple):
 
 def shown_quantity(quantity: Quantity, values: Array) -> QuantityDisplay:
     """The display of a quantity with these values; small lengths in millimetres."""
-    stem, dot, entry = quantity.name.partition(".")
-    words, unit = split_unit(stem)
-    words += f", entry {entry}" if dot else ""
+    words, unit = split_unit(quantity.name)
     known = values[np.isfinite(values)]
     if unit == "m" and len(known) and np.quantile(np.abs(known), 0.95) < SMALL:
         return QuantityDisplay(words, "mm", 1e3)
