@@ -9,6 +9,7 @@ import io
 import json
 import multiprocessing
 import os
+import re
 import resource
 import runpy
 import sys
@@ -144,16 +145,22 @@ def notebooks_in(folder: Path, exercises: Path) -> tuple[list[Notebook], list[st
 
 
 def cells_of(path: Path) -> Iterator[tuple[int, CodeType | SyntaxError]]:
-    """The code cells of a notebook that grading runs, with their numbers; lines with % and ! are left out."""
+    """The code cells of a notebook that grading runs, with their numbers."""
     for number, cell in enumerate(json.loads(path.read_text("utf-8"))["cells"], 1):
         if cell["cell_type"] != "code" or LEFT_OUT & set(cell["metadata"].get("tags", ())):
             continue
-        lines = "".join(cell["source"]).splitlines()
-        text = "\n".join("" if line.lstrip().startswith(("%", "!")) else line for line in lines)
-        try:
-            yield number, compile(text, f"cell {number}", "exec")
-        except SyntaxError as error:
-            yield number, error
+        yield number, _compiled("".join(cell["source"]).splitlines(), f"cell {number}")
+
+
+def _compiled(lines: list[str], name: str) -> CodeType | SyntaxError:
+    """The code of a cell; a line that Python refuses and only IPython reads, with %, ! or ?, does nothing."""
+    try:
+        return compile("\n".join(lines), name, "exec")
+    except SyntaxError as error:
+        at = (error.lineno or 0) - 1
+        if not 0 <= at < len(lines) or not re.match(r"\s*([%!?]|[\w.*]+\?\??\s*$)", lines[at]):
+            return error
+        return _compiled([*lines[:at], re.sub(r"\S.*", "pass", lines[at]), *lines[at + 1 :]], name)
 
 
 class _Forbidden(BaseException):
