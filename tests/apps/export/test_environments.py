@@ -130,6 +130,24 @@ def test_a_crash_terminates_and_says_so():
     assert info["findings"]
 
 
+def test_where_a_rotor_is_lost_staying_in_the_air_pays_more_than_landing():
+    env = FlightVectorEnv("RotorLoss", 2)
+    keys = {**env.task.keys, "mission.duration": 15.0}
+    stays, lands = (  # pilots who do not detect the loss, and who do
+        tl.Simulation(tl.load_mission("rotor-loss", {**keys, "detection.model": m})) for m in ("none", "residual")
+    )
+    env.block.reset([0, 1], seed=[stays.mission.mission.seed] * 2)
+    before = env.task.rewarded(env.block, 0.0)
+    for k in range(10000):
+        for pilot in (stays, lands):
+            pilot.step(steps=1 if k else 5001)
+        env.block.step(np.array([stays["rotor_commands"], lands["rotor_commands"]]))
+    assert env.block.state[1, 2] < 0.1
+    assert env.block.state[0, 2] > 1.0
+    reward = env.task.rewarded(env.block, 0.0) - before
+    assert reward[1] + 2.0 < reward[0] < 10.0
+
+
 def test_each_level_of_actions_holds_a_hover():
     for level in ("push", "velocity", "admittance", "wrench", "thrusts"):
         env = FlightVectorEnv("Transport", 1, action=level)

@@ -139,7 +139,7 @@ TASKS = {
     "RotorLoss": LearningTask(
         "Stay in the air where a rotor is lost.",
         "rotor-loss",
-        {**LIFTED, "faults.0.time": 6.0},
+        {**LIFTED, "faults.0.time": 6.0, "detection.model": "none"},
         begin=5.0,
         duration=10.0,
         level="thrusts",
