@@ -187,6 +187,7 @@ def test_a_controller_file_is_scored_as_the_same_controller_by_name(tmp_path):
     row = benchmark.scores_of(entry, quick=True)
     assert row == benchmark.scores_of(BenchmarkEntry("controllers", "again", {}, str(file)), quick=True)
     assert row["through (%)"] == 0.0  # in 12 s
+    assert row["work (J)"] is None
 
 
 def test_a_policy_with_weights_of_zero_is_the_admittance_alone(tmp_path):
