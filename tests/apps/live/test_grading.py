@@ -240,6 +240,17 @@ def test_the_command_prints_and_writes_a_table(tmp_path):
     assert list(csv.reader(out.read_text("utf-8").splitlines())) == rows
 
 
+def test_hidden_folders_are_left_out_but_not_those_above(tmp_path, monkeypatch):
+    names = ("anna", ".ipynb_checkpoints/anna-checkpoint", "ben/.ipynb_checkpoints/ben", "ben/ben")
+    for path in map(Path, names):
+        handed_in(tmp_path / ".hidden" / path.parent, path.name, "1-admittance", "pass")
+    monkeypatch.chdir(tmp_path / ".hidden" / "ben")
+    for folder in (tmp_path / ".hidden", Path("..")):
+        assert [one.name for one in notebooks_in(folder, EXERCISES)[0]] == ["anna", "ben"]
+    monkeypatch.chdir("..")
+    assert [one.name for one in notebooks_in(Path(), EXERCISES)[0]] == ["anna", "ben"]
+
+
 def test_folders_without_notebooks_or_exercises_are_refused(tmp_path):
     with pytest.raises(InputError, match="there is no such folder"):
         notebooks_in(tmp_path / "none", EXERCISES)

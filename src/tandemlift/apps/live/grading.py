@@ -126,7 +126,8 @@ def notebooks_in(folder: Path, exercises: Path) -> tuple[list[Notebook], list[st
         raise InputError(f"--exercises {exercises}: must hold a folder for each exercise, with a {CHECKS}; has none")
     if not folder.is_dir():
         raise InputError(f"{folder}: {'is a file, not a folder' if folder.exists() else 'there is no such folder'}")
-    paths = [p for p in sorted(folder.rglob("*.ipynb")) if not any(part.startswith(".") for part in p.parts[1:])]
+    below = sorted(p.relative_to(folder) for p in folder.rglob("*.ipynb"))
+    paths = [folder / p for p in below if not any(part.startswith(".") for part in p.parts)]
     if not paths:
         raise InputError(f"{folder}: must hold notebooks (.ipynb), one or a folder for each participant; has none")
     found, others = list[Notebook](), list[str]()
