@@ -172,7 +172,7 @@ def graded(folder: Path, *more: str, **environment: str) -> tuple[int, str]:
 def test_a_class_is_graded_and_what_misbehaves_is_named(tmp_path):
     first = "1-admittance"
     solution = EXERCISES / "solutions" / f"{first}.py"
-    begin = "%matplotlib inline\nimport numpy as np\nnp.sum?\nif True:\n    !ls\nassert (7\n    % 4\n    != 2)"
+    begin = "%matplotlib inline\nimport numpy as np\nnp.sum?\nif True:\n    !ls\nassert (7\n    % 4\n    != 2)\ndisplay(np.pi)"
     handed_in(tmp_path, "anna", first, begin, source(first))
     handed_in(tmp_path, "ben", first, source(first), "1 / 0")
     handed_in(

@@ -196,7 +196,7 @@ def _run_apart(notebook: Notebook, checks: SimpleNamespace, report: Connection) 
     cells, own = list(cells_of(notebook.path)), Path(os.path.realpath(notebook.path))
     sys.modules["checks"] = ModuleType("checks")
     vars(sys.modules["checks"]).update(vars(checks))
-    namespace: dict[str, Any] = {"__name__": "__main__"}
+    namespace: dict[str, Any] = {"__name__": "__main__", "display": print}
     failure, result, at, out = "", Grade(), 0, io.StringIO()
     with tempfile.TemporaryDirectory() as here, contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
         os.chdir(here)
