@@ -92,9 +92,9 @@ def test_random_persons_differ():
 
 @pytest.mark.parametrize("mode", ["NextStep", "SameStep", "Disabled"])
 def test_the_end_of_an_episode_in_each_mode(mode):
-    env = short("Transport", 2, autoreset_mode=mode)
+    env = FlightVectorEnv("Transport", 2, autoreset_mode=mode)
     assert env.metadata["autoreset_mode"] is AutoresetMode(mode)
-    start, _ = env.reset(seed=3)
+    start, _ = env.reset(seed=3, options={"mission.duration": 5.5})
     none = np.zeros((2, 3), dtype=np.float32)
     for k in range(25):
         seen, _, terminated, truncated, info = env.step(none)

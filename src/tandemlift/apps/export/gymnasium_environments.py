@@ -77,8 +77,7 @@ class FlightVectorEnv(VectorEnv[Observations, Array, NDArray[Any]]):
         self.metadata = {"render_modes": [], "autoreset_mode": self._mode}
         begin, end = self.task.begin, self.task.begin + self.task.duration
         mission = load_mission(self.task.mission, {**self.task.keys, "mission.duration": end, **(changes or {})})
-        self.mission, self._end = mission, mission.mission.duration
-        self._tables = tables_of(mission)
+        self.mission, self._tables = mission, tables_of(mission)
         self._steps = max(1, round(interval / mission.mission.step))
         self._level = ActionLevel(action or self.task.level, mission, num_envs, self._steps * mission.mission.step)
         if persons not in (None, "random"):
@@ -160,12 +159,13 @@ class FlightVectorEnv(VectorEnv[Observations, Array, NDArray[Any]]):
         score = self.task.rewarded(self.block, self._goals)
         reward, self._score = score - self._score, score
         over = self.block.ended
-        terminated = over & (self.block.time < self._end - 0.5 * self.block.dt)
-        truncated = over & ~terminated
+        terminated = np.zeros_like(over)
         observations = self._observations()
         for lane in np.flatnonzero(over).tolist():
+            outcome = self.block.metrics(lane)["outcome"]
+            terminated[lane] = outcome in ("crashed", "diverged")
             findings = [(f.time, f.kind, f.text) for f in self.block.findings(lane)]
-            told: dict[str, Any] = {"outcome": self.block.metrics(lane)["outcome"], "findings": findings}
+            told: dict[str, Any] = {"outcome": outcome, "findings": findings}
             if mode is AutoresetMode.SAME_STEP:
                 told = {"final_obs": observations[lane].copy(), "final_info": told}
             info = self._add_info(info, told, lane)
@@ -173,7 +173,7 @@ class FlightVectorEnv(VectorEnv[Observations, Array, NDArray[Any]]):
         if mode is AutoresetMode.SAME_STEP and over.any():
             self._begin(np.flatnonzero(over).tolist(), {})
             observations = self._observations()
-        return observations, reward, terminated, truncated, info
+        return observations, reward, terminated, over & ~terminated, info
 
     def _observations(self) -> Observations:
         parts = [self.block[name].reshape(self.num_envs, -1) for name in self._seen]
