@@ -103,8 +103,10 @@ def test_tangents_batches_and_steps_of_a_call_agree(jax):
 
 
 def test_a_channel_of_the_sample_is_a_part_of_the_state_with_a_derivative(jax):
-    step, simulation, h = step_of("hover", channels=("rotor_thrusts",)), tl.Simulation("hover"), 1e-6
+    step, simulation, h = step_of("hover", begin=0.2, channels=("rotor_thrusts",)), tl.Simulation("hover"), 1e-6
     push = np.array([0.5, 0.0, 0.0])
+    simulation.step(steps=200)
+    assert np.array_equal(step.read(step.state, "rotor_thrusts"), simulation["rotor_thrusts"])
     simulation.step(push=push)
     state = step(step(step.state, None, push), None, push)
     simulation.step(push=push)
@@ -146,6 +148,8 @@ def under_way(step, of, place, ago):
 
 
 def test_what_cannot_be_differentiated_is_refused(jax):
+    with pytest.raises(InputError, match='channels: "position" is a part of every state'):
+        tl.jax_step("hover", channels=("rotor_thrusts", "position"))
     with pytest.raises(InputError, match="walls and corridor: 10 walls, must be none"):
         tl.jax_step("zigzag")
     with pytest.raises(InputError, match=r"unknown actions 'wrench'; there are push, thrusts, velocity"):
