@@ -41,7 +41,7 @@ WRONG = {
         ("return np.zeros(3)", "return force", "within the threshold"),
         ("np.exp(-damping * dt / mass)", "np.exp(damping * dt / mass)", "without end"),
         ("np.exp(-damping * dt / mass)", "np.exp(-mass * dt / damping)", "63 %"),
-        ("np.exp(-damping * dt / mass)", "1.0 - damping * dt / mass", "solve the equation"),
+        ("kept = np.exp(-damping * dt / mass)", "force[...] = force; kept = 1 - damping * dt / mass", "solve the equation"),
         ("force / damping * (1.0 - kept)", "force / mass * dt", "1.25"),
         ("mass = damping * time_constant", "mass = damping / time_constant", "time constant is"),
     ],

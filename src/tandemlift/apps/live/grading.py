@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import dis
 import html
 import inspect
 import io
@@ -17,6 +18,7 @@ import tempfile
 import time
 import traceback
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import pairwise
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
 from types import CodeType, ModuleType, SimpleNamespace
@@ -91,8 +93,10 @@ def _graded(check: Any, answers: Mapping[str, Any]) -> Graded:
 
 
 def _is_blank(answer: Any) -> bool:
-    """Whether an answer is `...`, or a function that still has a `...` of the notebook that was handed out."""
-    return answer is ... or ... in getattr(getattr(answer, "__code__", None), "co_consts", ())
+    """Whether an answer is `...`, or a function that returns or assigns `...`, as in the notebook handed out."""
+    steps = [*dis.get_instructions(answer)] if inspect.isfunction(answer) else []
+    pairs = [f"{a.opname} {b.opname}" for a, b in pairwise([*steps, *steps[-1:]]) if a.argval is ...]
+    return answer is ... or any(re.match("RETURN_CONST|LOAD_CONST (RETURN|STORE_FAST)", pair) for pair in pairs)
 
 
 def _place(error: BaseException) -> str:
