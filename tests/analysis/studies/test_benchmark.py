@@ -159,6 +159,7 @@ REFUSED = {  # a file: its text, and the words of its refusal
     ),
     "raises.py": ("def observer(table):\n    return table + unknown", "line 2: NameError"),
     "none.py": ("x = 1", "holds no entry"),
+    "joints.py": ("def observer(table): return table", "a baseline has this name"),
     "both.py": (f"{CONTROLLER}\ndef observer(table): return 0", "the controller 'entry-pd' and an observer"),
     "broken.py": ("x = (", "line 1: SyntaxError"),
     "branches.py": (BRANCHING, "branches on data"),
