@@ -43,6 +43,7 @@ def test_an_environment_alone_is_that_of_many_at_once(name):
         one, reward, *_ = alone.step(actions[2])
         np.testing.assert_array_equal(seen[2], one)
         assert rewards[2] == reward
+    np.testing.assert_array_equal(many.block.state[2], alone.unwrapped.flights.block.state[0])
 
 
 def test_an_episode_is_the_flight_of_a_simulation_and_its_reward_what_a_metric_has_grown_by():
