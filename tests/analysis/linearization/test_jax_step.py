@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import copy
+import gc
+import weakref
 from functools import cache
 
 import numpy as np
@@ -161,6 +164,16 @@ def test_what_cannot_be_differentiated_is_refused(jax):
         step(step.state, None, np.zeros(2))
     with pytest.raises(InputError, match=r'"speed": must be one of position, velocity, attitude, rates'):
         step.read(step.state, "speed")
+
+
+def test_of_many_steps_those_are_let_go_that_nobody_keeps(jax):
+    steps = [copy.copy(step_of("hover")) for _ in range(9)]
+    first = weakref.ref(steps[0])
+    while steps:
+        steps[0](steps[0].state)
+        steps.pop(0)
+    gc.collect()
+    assert first() is None
 
 
 def test_single_precision_is_refused(jax):
