@@ -41,7 +41,7 @@ WRONG = {
         ("return np.zeros(3)", "return force", "within the threshold"),
         ("np.exp(-damping * dt / mass)", "np.exp(damping * dt / mass)", "without end"),
         ("np.exp(-damping * dt / mass)", "np.exp(-mass * dt / damping)", "63 %"),
-        ("kept = np.exp(-damping * dt / mass)", "force[...] = force; kept = 1 - damping * dt / mass", "solve the equation"),
+        ("kept = np.exp(-damping * dt / mass)", "force[...] = force; kept = 1 - damping * dt / mass", "solve the"),
         ("force / damping * (1.0 - kept)", "force / mass * dt", "1.25"),
         ("mass = damping * time_constant", "mass = damping / time_constant", "time constant is"),
     ],
@@ -172,7 +172,7 @@ def graded(folder: Path, *more: str, **environment: str) -> tuple[int, str]:
 def test_a_class_is_graded_and_what_misbehaves_is_named(tmp_path):
     first = "1-admittance"
     solution = EXERCISES / "solutions" / f"{first}.py"
-    begin = "%matplotlib inline\nimport numpy as np\nnp.sum?\nif True:\n    !ls\nassert (7\n    % 4\n    != 2)\ndisplay(np.pi)"
+    begin = "%matplotlib inline\nimport json\njson.load?\nif True:\n    !ls\nassert (7\n    % 4\n    != 2)\ndisplay(7)"
     handed_in(tmp_path, "anna", first, begin, source(first))
     handed_in(tmp_path, "ben", first, source(first), "1 / 0")
     handed_in(
@@ -184,6 +184,7 @@ def test_a_class_is_graded_and_what_misbehaves_is_named(tmp_path):
     handed_in(tmp_path, "hal", first, "import subprocess\nsubprocess.run(['true'])")
     handed_in(tmp_path, "ida", first, "raise SystemExit")
     handed_in(tmp_path, "jo", first, "import checks\nchecks.check_flight = lambda points=10: None")
+    handed_in(tmp_path, "kai", first, source(first), "def design(*given):\n    raise SystemExit")
     (tmp_path / "kim.ipynb").write_text("{}", "utf-8")
     handed_in(tmp_path / "leo", "leo", os.path.relpath(tmp_path / "leo", EXERCISES), "pass")
     (tmp_path / "leo" / "checks.py").write_text("raise SystemExit('ran in the process that grades')", "utf-8")
@@ -192,7 +193,7 @@ def test_a_class_is_graded_and_what_misbehaves_is_named(tmp_path):
     assert code == 3
     assert re.findall(r"^(\w+) +(\d+) +\d+$", said, re.M) == [
         *(("anna", "10"), ("ben", "10"), ("dan", "0"), ("eve", "0"), ("finn", "0")),
-        *(("gus", "0"), ("hal", "0"), ("ida", "0"), ("jo", "0")),
+        *(("gus", "0"), ("hal", "0"), ("ida", "0"), ("jo", "0"), ("kai", "6")),
     ]
     for line in (
         "ben, 1-admittance: cell 2, ZeroDivisionError: division by zero",
@@ -202,6 +203,7 @@ def test_a_class_is_graded_and_what_misbehaves_is_named(tmp_path):
         "gus, 1-admittance: cell 1 reads another notebook (anna.ipynb)",
         "hal, 1-admittance: cell 1 starts another program",
         "ida, 1-admittance: cell 1, SystemExit",
+        "`design`, line 2: SystemExit",
         "kim.ipynb: is a notebook of no exercise, and was skipped",
         "leo/leo.ipynb: is a notebook of exercise '../",
         f"mia.ipynb: is a notebook of exercise '9-unknown', which is not in {EXERCISES}, and was skipped",

@@ -85,7 +85,7 @@ def _graded(check: Any, answers: Mapping[str, Any]) -> Graded:
     asked = {name: answers.get(name, ...) for name in parameters}
     try:
         check(**asked)
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         hint = str(error) if isinstance(error, AssertionError) else f"{_place(error)}{type(error).__name__}: {error}"
         blank = [f"`{name}` is not written yet, or its cell was not run" for name in asked if _is_blank(asked[name])]
         return Graded(title, 0, of, [*blank, hint][0])
