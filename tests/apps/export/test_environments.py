@@ -180,6 +180,12 @@ def test_an_admittance_of_half_the_damping_follows_a_push_twice_as_fast():
         (lambda: FlightVectorEnv("Hover"), 'task = "Hover": must be one of Transport'),
         (lambda: FlightVectorEnv("Transport", action="torque"), "action = 'torque': must be one of 'push'"),
         (lambda: FlightVectorEnv("Transport", persons="any"), "persons = \"any\": must be 'random'"),
+        (
+            lambda: FlightVectorEnv("Transport", interval=-1.0),
+            "interval = -1.0: must be at least a step, 0.001 s",
+        ),
+        (lambda: short("Transport", 2).reset(seed=[3]), r"seed = \[3\]: must be from 0, one or as many as .*, 2"),
+        (lambda: short("Transport").reset(seed=-3), "seed = -3: must be from 0"),
         (lambda: FlightVectorEnv("Transport", draw={"plant.mass_scale": 1.0}), "must be a table such as"),
         (lambda: short("Transport").step(np.zeros(3)), r"actions are \(3,\): must be \(1, 3\) \(velocity\)"),
         (

@@ -78,7 +78,9 @@ class FlightVectorEnv(VectorEnv[Observations, Array, NDArray[Any]]):
         begin, end = self.task.begin, self.task.begin + self.task.duration
         mission = load_mission(self.task.mission, {**self.task.keys, "mission.duration": end, **(changes or {})})
         self.mission, self._tables = mission, tables_of(mission)
-        self._steps = max(1, round(interval / mission.mission.step))
+        if not mission.mission.step <= interval < np.inf:
+            raise InputError(f"interval = {shown(interval)}: must be at least a step, {mission.mission.step:g} s")
+        self._steps = round(interval / mission.mission.step)
         self._level = ActionLevel(action or self.task.level, mission, num_envs, self._steps * mission.mission.step)
         if persons not in (None, "random"):
             raise InputError(f"persons = {shown(persons)}: must be 'random', or left out")
@@ -106,14 +108,19 @@ class FlightVectorEnv(VectorEnv[Observations, Array, NDArray[Any]]):
                 the truth for each environment that begins anew.
 
         Raises:
-            InputError: a key is not allowed, or must be the same in all environments.
+            InputError: a seed or key is not allowed, or a key must be the same in all environments.
         """
         keys = dict(options or {})
         mask = keys.pop("reset_mask", None)
         lanes = list(range(self.num_envs)) if mask is None else np.flatnonzero(mask).tolist()
-        seeds = [seed + i for i in range(self.num_envs)] if isinstance(seed, (int, np.integer)) else seed
+        if seed is None or isinstance(seed, (int, np.integer)):
+            seeds = [None if seed is None else int(seed) + i for i in range(self.num_envs)]
+        else:
+            seeds = list(seed)
+        if len(seeds) != self.num_envs or any(n is not None and n < 0 for n in seeds):
+            raise InputError(f"seed = {shown(seed)}: must be from 0, one or as many as environments, {self.num_envs}")
         for lane in lanes:
-            if seeds is not None and seeds[lane] is not None:
+            if seeds[lane] is not None:
                 self._rngs[lane] = np.random.default_rng(seeds[lane])
         self._begin(lanes, keys)
         return self._observations(), {}
