@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import copy
+import gc
+import weakref
 from functools import cache
 
 import numpy as np
@@ -103,8 +106,10 @@ def test_tangents_batches_and_steps_of_a_call_agree(jax):
 
 
 def test_a_channel_of_the_sample_is_a_part_of_the_state_with_a_derivative(jax):
-    step, simulation, h = step_of("hover", channels=("rotor_thrusts",)), tl.Simulation("hover"), 1e-6
+    step, simulation, h = step_of("hover", begin=0.2, channels=("rotor_thrusts",)), tl.Simulation("hover"), 1e-6
     push = np.array([0.5, 0.0, 0.0])
+    simulation.step(steps=200)
+    assert np.array_equal(step.read(step.state, "rotor_thrusts"), simulation["rotor_thrusts"])
     simulation.step(push=push)
     state = step(step(step.state, None, push), None, push)
     simulation.step(push=push)
@@ -146,6 +151,8 @@ def under_way(step, of, place, ago):
 
 
 def test_what_cannot_be_differentiated_is_refused(jax):
+    with pytest.raises(InputError, match='channels: "position" is a part of every state'):
+        tl.jax_step("hover", channels=("rotor_thrusts", "position"))
     with pytest.raises(InputError, match="walls and corridor: 10 walls, must be none"):
         tl.jax_step("zigzag")
     with pytest.raises(InputError, match=r"unknown actions 'wrench'; there are push, thrusts, velocity"):
@@ -157,6 +164,16 @@ def test_what_cannot_be_differentiated_is_refused(jax):
         step(step.state, None, np.zeros(2))
     with pytest.raises(InputError, match=r'"speed": must be one of position, velocity, attitude, rates'):
         step.read(step.state, "speed")
+
+
+def test_of_many_steps_those_are_let_go_that_nobody_keeps(jax):
+    steps = [copy.copy(step_of("hover")) for _ in range(9)]
+    first = weakref.ref(steps[0])
+    while steps:
+        steps[0](steps[0].state)
+        steps.pop(0)
+    gc.collect()
+    assert first() is None
 
 
 def test_single_precision_is_refused(jax):

@@ -159,6 +159,7 @@ REFUSED = {  # a file: its text, and the words of its refusal
     ),
     "raises.py": ("def observer(table):\n    return table + unknown", "line 2: NameError"),
     "none.py": ("x = 1", "holds no entry"),
+    "joints.py": ("def observer(table): return table", "a baseline has this name"),
     "both.py": (f"{CONTROLLER}\ndef observer(table): return 0", "the controller 'entry-pd' and an observer"),
     "broken.py": ("x = (", "line 1: SyntaxError"),
     "branches.py": (BRANCHING, "branches on data"),
@@ -187,6 +188,7 @@ def test_a_controller_file_is_scored_as_the_same_controller_by_name(tmp_path):
     row = benchmark.scores_of(entry, quick=True)
     assert row == benchmark.scores_of(BenchmarkEntry("controllers", "again", {}, str(file)), quick=True)
     assert row["through (%)"] == 0.0  # in 12 s
+    assert row["work (J)"] is None
 
 
 def test_a_policy_with_weights_of_zero_is_the_admittance_alone(tmp_path):

@@ -43,6 +43,7 @@ def test_an_environment_alone_is_that_of_many_at_once(name):
         one, reward, *_ = alone.step(actions[2])
         np.testing.assert_array_equal(seen[2], one)
         assert rewards[2] == reward
+    np.testing.assert_array_equal(many.block.state[2], alone.unwrapped.flights.block.state[0])
 
 
 def test_an_episode_is_the_flight_of_a_simulation_and_its_reward_what_a_metric_has_grown_by():
@@ -92,9 +93,9 @@ def test_random_persons_differ():
 
 @pytest.mark.parametrize("mode", ["NextStep", "SameStep", "Disabled"])
 def test_the_end_of_an_episode_in_each_mode(mode):
-    env = short("Transport", 2, autoreset_mode=mode)
+    env = FlightVectorEnv("Transport", 2, autoreset_mode=mode)
     assert env.metadata["autoreset_mode"] is AutoresetMode(mode)
-    start, _ = env.reset(seed=3)
+    start, _ = env.reset(seed=3, options={"mission.duration": 5.5})
     none = np.zeros((2, 3), dtype=np.float32)
     for k in range(25):
         seen, _, terminated, truncated, info = env.step(none)
@@ -130,6 +131,24 @@ def test_a_crash_terminates_and_says_so():
     assert info["findings"]
 
 
+def test_where_a_rotor_is_lost_staying_in_the_air_pays_more_than_landing():
+    env = FlightVectorEnv("RotorLoss", 2)
+    keys = {**env.task.keys, "mission.duration": 15.0}
+    stays, lands = (  # pilots who do not detect the loss, and who do
+        tl.Simulation(tl.load_mission("rotor-loss", {**keys, "detection.model": m})) for m in ("none", "residual")
+    )
+    env.block.reset([0, 1], seed=[stays.mission.mission.seed] * 2)
+    before = env.task.rewarded(env.block, 0.0)
+    for k in range(10000):
+        for pilot in (stays, lands):
+            pilot.step(steps=1 if k else 5001)
+        env.block.step(np.array([stays["rotor_commands"], lands["rotor_commands"]]))
+    assert env.block.state[1, 2] < 0.1
+    assert env.block.state[0, 2] > 1.0
+    reward = env.task.rewarded(env.block, 0.0) - before
+    assert reward[1] + 2.0 < reward[0] < 10.0
+
+
 def test_each_level_of_actions_holds_a_hover():
     for level in ("push", "velocity", "admittance", "wrench", "thrusts"):
         env = FlightVectorEnv("Transport", 1, action=level)
@@ -161,6 +180,12 @@ def test_an_admittance_of_half_the_damping_follows_a_push_twice_as_fast():
         (lambda: FlightVectorEnv("Hover"), 'task = "Hover": must be one of Transport'),
         (lambda: FlightVectorEnv("Transport", action="torque"), "action = 'torque': must be one of 'push'"),
         (lambda: FlightVectorEnv("Transport", persons="any"), "persons = \"any\": must be 'random'"),
+        (
+            lambda: FlightVectorEnv("Transport", interval=-1.0),
+            "interval = -1.0: must be at least a step, 0.001 s",
+        ),
+        (lambda: short("Transport", 2).reset(seed=[3]), r"seed = \[3\]: must be from 0, one or as many as .*, 2"),
+        (lambda: short("Transport").reset(seed=-3), "seed = -3: must be from 0"),
         (lambda: FlightVectorEnv("Transport", draw={"plant.mass_scale": 1.0}), "must be a table such as"),
         (lambda: short("Transport").step(np.zeros(3)), r"actions are \(3,\): must be \(1, 3\) \(velocity\)"),
         (

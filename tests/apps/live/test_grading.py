@@ -41,7 +41,7 @@ WRONG = {
         ("return np.zeros(3)", "return force", "within the threshold"),
         ("np.exp(-damping * dt / mass)", "np.exp(damping * dt / mass)", "without end"),
         ("np.exp(-damping * dt / mass)", "np.exp(-mass * dt / damping)", "63 %"),
-        ("np.exp(-damping * dt / mass)", "1.0 - damping * dt / mass", "solve the equation"),
+        ("kept = np.exp(-damping * dt / mass)", "force[...] = force; kept = 1 - damping * dt / mass", "solve the"),
         ("force / damping * (1.0 - kept)", "force / mass * dt", "1.25"),
         ("mass = damping * time_constant", "mass = damping / time_constant", "time constant is"),
     ],
@@ -172,7 +172,8 @@ def graded(folder: Path, *more: str, **environment: str) -> tuple[int, str]:
 def test_a_class_is_graded_and_what_misbehaves_is_named(tmp_path):
     first = "1-admittance"
     solution = EXERCISES / "solutions" / f"{first}.py"
-    handed_in(tmp_path, "anna", first, "%matplotlib inline\nimport numpy as np", source(first))
+    begin = "%matplotlib inline\nimport json\njson.load?\nif True:\n    !ls\nassert (7\n    % 4\n    != 2)\ndisplay(7)"
+    handed_in(tmp_path, "anna", first, begin, source(first))
     handed_in(tmp_path, "ben", first, source(first), "1 / 0")
     handed_in(
         tmp_path, "dan", first, f"try:\n    exec(open({str(solution)!r}).read())\nexcept BaseException:\n    pass"
@@ -183,6 +184,7 @@ def test_a_class_is_graded_and_what_misbehaves_is_named(tmp_path):
     handed_in(tmp_path, "hal", first, "import subprocess\nsubprocess.run(['true'])")
     handed_in(tmp_path, "ida", first, "raise SystemExit")
     handed_in(tmp_path, "jo", first, "import checks\nchecks.check_flight = lambda points=10: None")
+    handed_in(tmp_path, "kai", first, source(first), "def design(*given):\n    raise SystemExit")
     (tmp_path / "kim.ipynb").write_text("{}", "utf-8")
     handed_in(tmp_path / "leo", "leo", os.path.relpath(tmp_path / "leo", EXERCISES), "pass")
     (tmp_path / "leo" / "checks.py").write_text("raise SystemExit('ran in the process that grades')", "utf-8")
@@ -191,7 +193,7 @@ def test_a_class_is_graded_and_what_misbehaves_is_named(tmp_path):
     assert code == 3
     assert re.findall(r"^(\w+) +(\d+) +\d+$", said, re.M) == [
         *(("anna", "10"), ("ben", "10"), ("dan", "0"), ("eve", "0"), ("finn", "0")),
-        *(("gus", "0"), ("hal", "0"), ("ida", "0"), ("jo", "0")),
+        *(("gus", "0"), ("hal", "0"), ("ida", "0"), ("jo", "0"), ("kai", "6")),
     ]
     for line in (
         "ben, 1-admittance: cell 2, ZeroDivisionError: division by zero",
@@ -201,6 +203,7 @@ def test_a_class_is_graded_and_what_misbehaves_is_named(tmp_path):
         "gus, 1-admittance: cell 1 reads another notebook (anna.ipynb)",
         "hal, 1-admittance: cell 1 starts another program",
         "ida, 1-admittance: cell 1, SystemExit",
+        "`design`, line 2: SystemExit",
         "kim.ipynb: is a notebook of no exercise, and was skipped",
         "leo/leo.ipynb: is a notebook of exercise '../",
         f"mia.ipynb: is a notebook of exercise '9-unknown', which is not in {EXERCISES}, and was skipped",
@@ -237,6 +240,17 @@ def test_the_command_prints_and_writes_a_table(tmp_path):
     head = ["name", "1-admittance", "6-passivity", "points"]
     rows = [head, ["anna", "10", "–", "10"], ["ben", "10", "10", "20"]]
     assert list(csv.reader(out.read_text("utf-8").splitlines())) == rows
+
+
+def test_hidden_folders_are_left_out_but_not_those_above(tmp_path, monkeypatch):
+    names = ("anna", ".ipynb_checkpoints/anna-checkpoint", "ben/.ipynb_checkpoints/ben", "ben/ben")
+    for path in map(Path, names):
+        handed_in(tmp_path / ".hidden" / path.parent, path.name, "1-admittance", "pass")
+    monkeypatch.chdir(tmp_path / ".hidden" / "ben")
+    for folder in (tmp_path / ".hidden", Path("..")):
+        assert [one.name for one in notebooks_in(folder, EXERCISES)[0]] == ["anna", "ben"]
+    monkeypatch.chdir("..")
+    assert [one.name for one in notebooks_in(Path(), EXERCISES)[0]] == ["anna", "ben"]
 
 
 def test_folders_without_notebooks_or_exercises_are_refused(tmp_path):

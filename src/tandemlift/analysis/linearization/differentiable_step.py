@@ -20,7 +20,7 @@ from tandemlift.compiler.machine_code.jax_step import JaxStep
 from tandemlift.compiler.machine_code.torch_step import TorchStep
 from tandemlift.compiler.tracer import Function, Place, Symbol, elementary
 from tandemlift.core.algebra import where
-from tandemlift.core.errors import InputError, unknown
+from tandemlift.core.errors import InputError, shown, unknown
 from tandemlift.core.types import Array, leaves, rebuilt
 from tandemlift.missions import MissionLike, mission_of
 from tandemlift.parts.mechanics.push import push_at
@@ -48,7 +48,7 @@ def jax_step(
             the reference (3,) [m/s].
         steps: number of steps of a call, during which the action is held.
         begin: time [s] at which the flight is handed over; until then it flies without actions.
-        channels: further parts of the state: channels of the sample of the last step.
+        channels: further parts of the state: channels of the sample of the last step; at time 0, of that at 0.
 
     Returns:
         The step; see `JaxStep`, and docs/how-to/gradients.md.
@@ -109,14 +109,17 @@ class ClosedStep:
         self.held, self.size = held_inputs(plan.given.external)[actions], self.graph.size
         self.under_way = sum(one.under_way for one in self.delayed)
         self.names = [*self.graph.names, *[f"under_way.{i}" for i in range(self.under_way)], "step"]
-        self.places, self.sampled, at = dict[str, slice](), list[int](), self.graph.body_state.start
+        self.places, self.columns, at = dict[str, slice](), list[int](), self.graph.body_state.start
         for name, count in MOTION.items():
             self.places[name], at = slice(at, at + count), at + count
         for name in channels:
+            if name in MOTION:
+                raise InputError(f"channels: {shown(name)} is a part of every state: leave it out")
             columns, variables = outputs_from(self.graph.sample, [name], ())
             self.places[name] = slice(len(self.names), len(self.names) + len(columns))
             self.names += [variable.name for variable in variables]
-            self.sampled += [self.graph.outputs[i] for i in columns]
+            self.columns += columns
+        self.sampled = [self.graph.outputs[i] for i in self.columns]
         self.numbers = len(leaf_names(plan.model))
         self.keys = self.numbers - self.size + plan.tables.pushes.size + plan.tables.gusts.size
         self.by = self._formed()
@@ -236,8 +239,7 @@ class ClosedStep:
         """The parts of a `FlightStep` from a point of the flight on: code, start, names and places."""
         p = self.plan
         lines = [x for values in values_under_way(self.delayed, point.ring, point.k) for x in values]
-        state = np.zeros(len(self.names))
-        state[: self.size + len(lines) + 1] = [*point.numbers[: self.size], *lines, point.k]
+        state = np.array([*point.numbers[: self.size], *lines, point.k, *point.sample[self.columns]])
         parameters = np.concatenate(
             [point.numbers[self.size :], p.tables.pushes.ravel(), p.tables.gusts.ravel(), np.ravel(p.seeds)]
         )

@@ -31,6 +31,7 @@ class OperatingPoint(NamedTuple):
         numbers: of the flight.
         ring: its delay lines, a row for each step.
         external: inputs of the step's caller; by default none act.
+        sample: of the step before; of step 0 at the beginning.
     """
 
     plan: FlightPlan
@@ -38,6 +39,7 @@ class OperatingPoint(NamedTuple):
     numbers: Array
     ring: Array
     external: Sequence[float] = ()
+    sample: Array = np.zeros(0)
 
 
 def calm_time(mission: Mission) -> float:
@@ -157,9 +159,8 @@ def as_it_stands(simulation: Simulation) -> OperatingPoint:
     if simulation.over:
         raise InputError("the flight is over: nothing to linearize; reset() begins anew")
     _check(stepper.p)
-    row = stepper.row.copy()
     point = _point(stepper, simulation.k)
-    stepper.row[:] = row
+    stepper.row[:] = point.sample
     return point
 
 
@@ -175,7 +176,7 @@ def _check(plan: FlightPlan) -> None:
 def _point(stepper: Stepper, k: int) -> OperatingPoint:
     """The flight before step k, with the surroundings of that step, of which only the sample is taken."""
     external = np.zeros_like(stepper.external) if stepper.external.size else None
+    before = stepper.row.copy()
     stepper.step(k, final=True, external=external)
-    ring = stepper.memory.ring
-    rows = stepper.p.start().ring.shape
-    return OperatingPoint(stepper.p, k, stepper.a.copy(), ring.reshape(rows).copy())
+    sample, rows = before if k else stepper.row.copy(), stepper.p.start().ring.shape
+    return OperatingPoint(stepper.p, k, stepper.a.copy(), stepper.memory.ring.reshape(rows).copy(), sample=sample)

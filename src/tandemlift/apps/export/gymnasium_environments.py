@@ -77,9 +77,10 @@ class FlightVectorEnv(VectorEnv[Observations, Array, NDArray[Any]]):
         self.metadata = {"render_modes": [], "autoreset_mode": self._mode}
         begin, end = self.task.begin, self.task.begin + self.task.duration
         mission = load_mission(self.task.mission, {**self.task.keys, "mission.duration": end, **(changes or {})})
-        self.mission, self._end = mission, mission.mission.duration
-        self._tables = tables_of(mission)
-        self._steps = max(1, round(interval / mission.mission.step))
+        self.mission, self._tables = mission, tables_of(mission)
+        if not mission.mission.step <= interval < np.inf:
+            raise InputError(f"interval = {shown(interval)}: must be at least a step, {mission.mission.step:g} s")
+        self._steps = round(interval / mission.mission.step)
         self._level = ActionLevel(action or self.task.level, mission, num_envs, self._steps * mission.mission.step)
         if persons not in (None, "random"):
             raise InputError(f"persons = {shown(persons)}: must be 'random', or left out")
@@ -107,14 +108,19 @@ class FlightVectorEnv(VectorEnv[Observations, Array, NDArray[Any]]):
                 the truth for each environment that begins anew.
 
         Raises:
-            InputError: a key is not allowed, or must be the same in all environments.
+            InputError: a seed or key is not allowed, or a key must be the same in all environments.
         """
         keys = dict(options or {})
         mask = keys.pop("reset_mask", None)
         lanes = list(range(self.num_envs)) if mask is None else np.flatnonzero(mask).tolist()
-        seeds = [seed + i for i in range(self.num_envs)] if isinstance(seed, (int, np.integer)) else seed
+        if seed is None or isinstance(seed, (int, np.integer)):
+            seeds = [None if seed is None else int(seed) + i for i in range(self.num_envs)]
+        else:
+            seeds = list(seed)
+        if len(seeds) != self.num_envs or any(n is not None and n < 0 for n in seeds):
+            raise InputError(f"seed = {shown(seed)}: must be from 0, one or as many as environments, {self.num_envs}")
         for lane in lanes:
-            if seeds is not None and seeds[lane] is not None:
+            if seeds[lane] is not None:
                 self._rngs[lane] = np.random.default_rng(seeds[lane])
         self._begin(lanes, keys)
         return self._observations(), {}
@@ -160,12 +166,13 @@ class FlightVectorEnv(VectorEnv[Observations, Array, NDArray[Any]]):
         score = self.task.rewarded(self.block, self._goals)
         reward, self._score = score - self._score, score
         over = self.block.ended
-        terminated = over & (self.block.time < self._end - 0.5 * self.block.dt)
-        truncated = over & ~terminated
+        terminated = np.zeros_like(over)
         observations = self._observations()
         for lane in np.flatnonzero(over).tolist():
+            outcome = self.block.metrics(lane)["outcome"]
+            terminated[lane] = outcome in ("crashed", "diverged")
             findings = [(f.time, f.kind, f.text) for f in self.block.findings(lane)]
-            told: dict[str, Any] = {"outcome": self.block.metrics(lane)["outcome"], "findings": findings}
+            told: dict[str, Any] = {"outcome": outcome, "findings": findings}
             if mode is AutoresetMode.SAME_STEP:
                 told = {"final_obs": observations[lane].copy(), "final_info": told}
             info = self._add_info(info, told, lane)
@@ -173,7 +180,7 @@ class FlightVectorEnv(VectorEnv[Observations, Array, NDArray[Any]]):
         if mode is AutoresetMode.SAME_STEP and over.any():
             self._begin(np.flatnonzero(over).tolist(), {})
             observations = self._observations()
-        return observations, reward, terminated, truncated, info
+        return observations, reward, terminated, over & ~terminated, info
 
     def _observations(self) -> Observations:
         parts = [self.block[name].reshape(self.num_envs, -1) for name in self._seen]

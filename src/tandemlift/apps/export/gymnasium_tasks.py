@@ -139,7 +139,7 @@ TASKS = {
     "RotorLoss": LearningTask(
         "Stay in the air where a rotor is lost.",
         "rotor-loss",
-        {**LIFTED, "faults.0.time": 6.0},
+        {**LIFTED, "faults.0.time": 6.0, "detection.model": "none"},
         begin=5.0,
         duration=10.0,
         level="thrusts",
@@ -220,8 +220,8 @@ class ActionLevel:
         low, high = self.limits
         actions = low + (high - low) * (0.5 * actions + 0.5)
         if self.level == "wrench":
-            split: Array = actions @ self._split.T
-            return split
+            first, *others = (actions[:, [i]] * thrusts for i, thrusts in enumerate(self._split.T))
+            return sum(others, first)  # a product of matrices rounds by how many lanes there are
         return self._led(actions, block) if self.level == "admittance" else actions
 
     def _led(self, actions: Array, block: Block) -> Array:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import contextlib
+import dis
 import html
 import inspect
 import io
 import json
 import multiprocessing
 import os
+import re
 import resource
 import runpy
 import sys
@@ -16,6 +18,7 @@ import tempfile
 import time
 import traceback
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import pairwise
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
 from types import CodeType, ModuleType, SimpleNamespace
@@ -82,7 +85,7 @@ def _graded(check: Any, answers: Mapping[str, Any]) -> Graded:
     asked = {name: answers.get(name, ...) for name in parameters}
     try:
         check(**asked)
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         hint = str(error) if isinstance(error, AssertionError) else f"{_place(error)}{type(error).__name__}: {error}"
         blank = [f"`{name}` is not written yet, or its cell was not run" for name in asked if _is_blank(asked[name])]
         return Graded(title, 0, of, [*blank, hint][0])
@@ -90,8 +93,10 @@ def _graded(check: Any, answers: Mapping[str, Any]) -> Graded:
 
 
 def _is_blank(answer: Any) -> bool:
-    """Whether an answer is `...`, or a function that still has a `...` of the notebook that was handed out."""
-    return answer is ... or ... in getattr(getattr(answer, "__code__", None), "co_consts", ())
+    """Whether an answer is `...`, or a function that returns or assigns `...`, as in the notebook handed out."""
+    steps = [*dis.get_instructions(answer)] if inspect.isfunction(answer) else []
+    pairs = [f"{a.opname} {b.opname}" for a, b in pairwise([*steps, *steps[-1:]]) if a.argval is ...]
+    return answer is ... or any(re.match("RETURN_CONST|LOAD_CONST (RETURN|STORE_FAST)", pair) for pair in pairs)
 
 
 def _place(error: BaseException) -> str:
@@ -125,7 +130,8 @@ def notebooks_in(folder: Path, exercises: Path) -> tuple[list[Notebook], list[st
         raise InputError(f"--exercises {exercises}: must hold a folder for each exercise, with a {CHECKS}; has none")
     if not folder.is_dir():
         raise InputError(f"{folder}: {'is a file, not a folder' if folder.exists() else 'there is no such folder'}")
-    paths = [p for p in sorted(folder.rglob("*.ipynb")) if not any(part.startswith(".") for part in p.parts[1:])]
+    below = sorted(p.relative_to(folder) for p in folder.rglob("*.ipynb"))
+    paths = [folder / p for p in below if not any(part.startswith(".") for part in p.parts)]
     if not paths:
         raise InputError(f"{folder}: must hold notebooks (.ipynb), one or a folder for each participant; has none")
     found, others = list[Notebook](), list[str]()
@@ -144,16 +150,22 @@ def notebooks_in(folder: Path, exercises: Path) -> tuple[list[Notebook], list[st
 
 
 def cells_of(path: Path) -> Iterator[tuple[int, CodeType | SyntaxError]]:
-    """The code cells of a notebook that grading runs, with their numbers; lines with % and ! are left out."""
+    """The code cells of a notebook that grading runs, with their numbers."""
     for number, cell in enumerate(json.loads(path.read_text("utf-8"))["cells"], 1):
         if cell["cell_type"] != "code" or LEFT_OUT & set(cell["metadata"].get("tags", ())):
             continue
-        lines = "".join(cell["source"]).splitlines()
-        text = "\n".join("" if line.lstrip().startswith(("%", "!")) else line for line in lines)
-        try:
-            yield number, compile(text, f"cell {number}", "exec")
-        except SyntaxError as error:
-            yield number, error
+        yield number, _compiled("".join(cell["source"]).splitlines(), f"cell {number}")
+
+
+def _compiled(lines: list[str], name: str) -> CodeType | SyntaxError:
+    """The code of a cell; a line that Python refuses and only IPython reads, with %, ! or ?, does nothing."""
+    try:
+        return compile("\n".join(lines), name, "exec")
+    except SyntaxError as error:
+        at = (error.lineno or 0) - 1
+        if not 0 <= at < len(lines) or not re.match(r"\s*([%!?]|[\w.*]+\?\??\s*$)", lines[at]):
+            return error
+        return _compiled([*lines[:at], re.sub(r"\S.*", "pass", lines[at]), *lines[at + 1 :]], name)
 
 
 class _Forbidden(BaseException):
@@ -188,7 +200,7 @@ def _run_apart(notebook: Notebook, checks: SimpleNamespace, report: Connection) 
     cells, own = list(cells_of(notebook.path)), Path(os.path.realpath(notebook.path))
     sys.modules["checks"] = ModuleType("checks")
     vars(sys.modules["checks"]).update(vars(checks))
-    namespace: dict[str, Any] = {"__name__": "__main__"}
+    namespace: dict[str, Any] = {"__name__": "__main__", "display": print}
     failure, result, at, out = "", Grade(), 0, io.StringIO()
     with tempfile.TemporaryDirectory() as here, contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
         os.chdir(here)

@@ -125,7 +125,7 @@ def _primitives() -> dict[Kind, Any]:
     def define(kind: Kind, primitive: Any) -> None:
         primitive.multiple_results = True
 
-        @functools.cache
+        @functools.lru_cache(8)  # keeps its steps
         def jitted(step: JaxStep, with_parameters: bool) -> Any:
             return jax.jit(functools.partial(primitive.bind, step=step, with_parameters=with_parameters))
 

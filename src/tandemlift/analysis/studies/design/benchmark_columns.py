@@ -84,7 +84,7 @@ TABLES: dict[Kind, tuple[Column, ...]] = {
         *_axes("RMSE {}, draws (mm)", "x y z", "draws", TRACKED, 1e3),
         Column("through (%)", "corridor", percent(lambda row: row["score_s"] is not None)),
         Column("score (s)", "corridor", metric("score_s"), statistics.median),
-        Column("work (J)", "corridor", metric("human_work_j")),
+        Column("work (J)", "corridor", lambda row: None if row.get("score_s") is None else row["human_work_j"]),
         Column("touches", "corridor", metric("touches")),
     ),
     "observers": (

@@ -70,8 +70,10 @@ def entry_of(file: Path) -> BenchmarkEntry:
     """The entry in a file.
 
     Raises:
-        InputError: there is no such file, or it holds none, or more than one.
+        InputError: there is no such file, or it holds none, or more than one, or has the name of a baseline.
     """
+    if file.stem in [one.name for kind in KINDS for one in baselines(kind)]:
+        raise InputError(f"{file}: a baseline has this name: rename the file")
     if file.suffix == ".toml":
         return _policy(file)
     if file.suffix != ".py":

@@ -60,8 +60,8 @@ class BlockReadings:
 
     @property
     def state(self) -> Array:
-        """The true states (lanes, 13), as `Simulation.state`."""
-        return self._memory.numbers_of(leaf_offset(self._p.model, "flight_state", "state"))[: self.lanes]
+        """The true states (lanes, 13), as `Simulation.state`: a copy."""
+        return self._memory.numbers_of(leaf_offset(self._p.model, "flight_state", "state"))[: self.lanes].copy()
 
     def sums(self, name: str) -> Array:
         """Sums over all steps so far, from which metrics are formed (lanes, n): `simulation.loop.running_metrics`.
