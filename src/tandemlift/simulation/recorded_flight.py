@@ -6,7 +6,7 @@ It is saved as a mission, a TOML file with the hand in an archive beside it, who
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -85,7 +85,10 @@ class FlightSnapshot:
 def save_flight(folder: Path, flown: RawResult, engine: str) -> Flight:
     """Write the flight that was flown into the folder of its recorded mission."""
     with without_flight_warnings():
-        p = FlightPlan(load_mission(folder / MISSION))
+        p = FlightPlan(end := load_mission(folder / MISSION))
+        for change in end.changes:
+            end = changed(end, change.key, change.value)
+        flown = replace(flown, now=FlightPlan(end))  # a plan stays in its process
     flight = flight_of(p, flown, engine)
     flight.save(folder / FLIGHT)
     return flight

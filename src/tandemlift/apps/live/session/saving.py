@@ -48,7 +48,7 @@ def save_in_process(snapshot: FlightSnapshot, folder: Path) -> None:
 
 
 def _spool(snapshot: FlightSnapshot, spool: Path) -> None:
-    log, rest = snapshot.flown.log, replace(snapshot.flown, log=np.empty(0))
+    log, rest = snapshot.flown.log, replace(snapshot.flown, log=np.empty(0), now=None)
     with (spool / LOG).open("wb", buffering=0) as file:
         for first in range(0, len(log), CHUNK):
             file.write(log[first : first + CHUNK].data)
