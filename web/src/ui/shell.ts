@@ -272,7 +272,7 @@ export class Shell {
 
   private readonly key = (event: KeyboardEvent): void => {
     if (this.undo.key(event)) event.preventDefault();
-    if (typing(event.target) || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (typing(event) || event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.repeat && !event.code.startsWith("Arrow")) return;
     this.keys().get(event.code)?.();
   };
