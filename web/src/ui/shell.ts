@@ -53,7 +53,7 @@ export interface ShellPage {
   readonly current: Frame | null;
   readonly companions: readonly SceneMission[] | undefined;
   readonly compare: Compare | undefined;
-  send(message: PageMessage): void;
+  send(message: PageMessage): number | null;
   retry(): void;
   look(view: View): void;
   readonly theme: ThemeChoice;
