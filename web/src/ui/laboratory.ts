@@ -71,6 +71,7 @@ export class Laboratory {
     this.marks.findings(scene.replay?.findings ?? []);
     for (const { time, text } of scene.replay?.changes ?? []) this.marks.setting(time, text);
     const chose = (time: number): void => this.choose(time);
+    this.plots?.remove();
     this.plots = new Plots(scene, byId("plots"), graphics, this.history, this.window, this.marks, chose);
   }
 

@@ -59,6 +59,10 @@ export class Plots {
     place.replaceChildren(...this.all.map(({ plot }) => plot.card));
   }
 
+  remove(): void {
+    for (const { plot } of this.all) plot.remove();
+  }
+
   /** Draws the plot whose turn it is, so that no picture waits for all of them. */
   draw(): void {
     if (this.place.hidden || !Number.isFinite(this.history.flown[1])) return;

@@ -87,3 +87,21 @@ def test_it_lands_is_reset_and_the_page_begins_anew(page, live):
     page.click("#dock button:has-text('Reset')")
     live.until(lambda: live.scene is not scene, "a new flight")
     live.wait_status(lambda status: status["phase"] in ("guided", "hold"), "hover")
+
+
+def test_a_reset_leaves_nothing_of_the_plots_before_it(page, live):
+    tools = page.context.new_cdp_session(page)
+
+    def listeners_after_a_reset():
+        scene = live.scene
+        page.click("#dock button:has-text('Reset')")
+        live.until(lambda: live.scene is not scene, "a new flight")
+        until(lambda: page.locator(".plot").count() == 4, "its plots")
+        live.wait(lambda seen: seen["time"] > 0.3, "a flight that goes on")
+        tools.send("HeapProfiler.collectGarbage")
+        return tools.send("Memory.getDOMCounters")["jsEventListeners"]
+
+    before = listeners_after_a_reset()
+    listeners_after_a_reset()
+    assert listeners_after_a_reset() <= before + 40  # the plots of two resets have 130
+    live.wait_status(lambda status: status["phase"] in ("guided", "hold"), "hover")
