@@ -1,7 +1,7 @@
 // The buttons of a live flight, below the picture.
 
 import { LIMITS, type PageMessage, type StatusMessage } from "../wire/messages.generated.ts";
-import { button, el, icon } from "./dom.ts";
+import { button, el, icon, menu } from "./dom.ts";
 import { isAirborne } from "./phases.ts";
 import type { Question } from "./question.ts";
 import { RefusalNote } from "./refusal_note.ts";
@@ -133,12 +133,9 @@ export class Dock {
 
   private speedChoice(): HTMLSelectElement {
     const options = SPEEDS.map((value) => el("option", { value }, `\u00d7${value}`));
-    const select = el("select", { title: "Speed of the flight", "aria-label": "Speed of the flight" }, ...options);
-    select.addEventListener("change", () => {
-      this.send({ type: "speed", factor: Number(select.value) });
-      select.blur();
-    });
-    return select;
+    const name = "Speed of the flight";
+    const act = (factor: string): void => this.send({ type: "speed", factor: Number(factor) });
+    return menu({ title: name, "aria-label": name }, act, false, options);
   }
 
   private resetButton(): HTMLButtonElement {
