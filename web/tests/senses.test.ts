@@ -14,6 +14,9 @@ test("a hidden page is silent, and sounds again once it is seen", () => {
   const senses = new SensesOfFlight({ rotors: true, touches: false, vibration: false });
   page.event("visibilitychange"); // before there is a sound
   void senses["audio"];
-  for (page.hidden of [true, false]) page.event("visibilitychange");
+  for (const hidden of [true, false]) {
+    page.hidden = hidden;
+    page.event("visibilitychange");
+  }
   assert.deepEqual(told, ["suspend", "resume"]);
 });
