@@ -3,8 +3,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { page } from "./dom.ts";
+import { fake, page } from "./dom.ts";
+import { Dock } from "../src/ui/dock.ts";
+import { Question } from "../src/ui/question.ts";
 import { SaveDialog } from "../src/ui/save_dialog.ts";
+import type { PageMessage } from "../src/wire/messages.generated.ts";
 
 test("a flight that is not open is not saved, and the dialog says so", () => {
   new SaveDialog(() => null).open("mine");
@@ -13,4 +16,18 @@ test("a flight that is not open is not saved, and the dialog says so", () => {
   assert.match(form.querySelector("p")!.textContent, /No flight is open/);
   const [, submit] = form.querySelector("div")!.children;
   assert.deepEqual([submit["disabled"], submit.textContent], [false, "Save"]);
+});
+
+test("two presses of P before the flight answers pause it and let it go on", () => {
+  const sent: PageMessage[] = [];
+  const nothing = (): void => undefined;
+  const place = document.createElement("div");
+  const actions = { height: () => null, open: nothing, save: nothing, film: nothing };
+  const dock = new Dock(place, (message) => sent.push(message), new Question(), actions);
+  for (const name of ["Continue", "Pause"]) {
+    dock.togglePause();
+    const [button] = fake(place).children[3].children;
+    assert.equal(button.querySelector("span")!.textContent, name);
+  }
+  assert.deepEqual(sent, [{ type: "pause", on: true }, { type: "pause", on: false }]);
 });

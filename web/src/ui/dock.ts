@@ -41,7 +41,8 @@ export class Dock {
     private readonly actions: DockActions,
   ) {
     this.pauseButton = button("pause", "Pause", "Pause or continue (P)", () => {
-      send({ type: "pause", on: !this.paused });
+      this.pause(!this.paused);
+      send({ type: "pause", on: this.paused });
     });
     this.enableButton = button("hand", "", "Whether the pilot follows pushes", () => {
       this.enable(!this.enabled);
@@ -65,11 +66,7 @@ export class Dock {
   }
 
   status(status: StatusMessage): void {
-    if (status.paused !== this.paused) {
-      this.paused = status.paused;
-      const [name, text] = this.paused ? ["play", "Continue"] : ["pause", "Pause"];
-      this.pauseButton.replaceChildren(icon(name), el("span", {}, text));
-    }
+    this.pause(status.paused);
     const speed = String(Number(status.speed.toPrecision(3)));
     if (document.activeElement !== this.speeds && SPEEDS.includes(speed)) this.speeds.value = speed;
     this.enable(status.enabled);
@@ -116,6 +113,13 @@ export class Dock {
   reset(files: boolean): void {
     this.enable(true);
     this.openButton.hidden = !files;
+  }
+
+  private pause(on: boolean): void {
+    if (on === this.paused) return;
+    this.paused = on;
+    const [name, text] = on ? ["play", "Continue"] : ["pause", "Pause"];
+    this.pauseButton.replaceChildren(icon(name), el("span", {}, text));
   }
 
   private enable(on: boolean): void {
