@@ -244,9 +244,10 @@ export class App implements FlightListener, ShellPage {
     return !this.eye.equals(this.stage.camera.matrixWorld);
   }
 
-  /** Continues at another level of graphics. */
+  /** Continues at another level of graphics, on another canvas: a video of this one ends, and is saved. */
   private rebuild(graphics: Graphics): void {
     if (graphics === this.stage.graphics) return;
+    this.shell.endVideo();
     this.stage.build(graphics);
     this.repaint();
   }

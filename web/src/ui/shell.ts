@@ -120,6 +120,10 @@ export class Shell {
     return this.video.running;
   }
 
+  endVideo(): void {
+    if (this.recording) this.toggleVideo();
+  }
+
   scene(scene: FlownScene): void {
     [this.mission, this.floor] = [scene.mission, scene.floor];
     this.bar.scene(scene);

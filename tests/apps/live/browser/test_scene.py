@@ -2,7 +2,7 @@
 
 import re
 
-from chromium import rests
+from chromium import panel, rests
 from patience import until
 
 
@@ -28,3 +28,18 @@ def test_a_push_below_the_threshold_says_how_much_is_missing_and_the_menu_is_rem
     page.reload()
     page.get_by_role("button", name="Show").click()
     assert box().is_checked()
+
+
+def test_a_video_is_saved_when_other_graphics_are_chosen(page, live):
+    video = page.locator("#dock button", has_text=re.compile("^(End v|V)ideo$"))
+    video.click()
+    assert video.text_content() == "End video"
+    page.wait_for_timeout(1500.0)  # ms, of a video
+    panel(page, "admittance.mass")
+    page.locator("#panel summary", has_text="picture").click()
+    graphics = page.get_by_role("group", name="Graphics")
+    with page.expect_download() as saved:
+        graphics.get_by_role("button", name="full").click()
+    assert saved.value.suggested_filename.endswith((".webm", ".mp4"))
+    assert saved.value.path().stat().st_size > 1000
+    assert video.text_content() == "Video"
