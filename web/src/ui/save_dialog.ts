@@ -11,7 +11,7 @@ export class SaveDialog {
   constructor(private readonly save: (name: string) => number | null) {
     const cancel = el("button", { type: "button" }, "Cancel");
     cancel.addEventListener("click", () => this.dialog.close());
-    const title = el("h2", {}, "Save the flight so far");
+    const title = el("h2", { id: "saving-title" }, "Save the flight so far");
     const actions = el("div", { class: "actions" }, cancel, this.submit);
     const label = el("label", { for: "save-name" }, "Name");
     const form = el("form", {}, title, label, this.name, this.reason, actions);

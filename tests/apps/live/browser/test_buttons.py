@@ -32,6 +32,7 @@ def test_a_name_that_is_refused_says_why_in_the_dialog_and_what_another_one_has_
     page.get_by_role("button", name="Cancel").click()
     assert not page.is_visible("#saving")
     page.click("#dock span:text-is('Save')")
+    assert page.get_by_role("dialog", name="Save the flight so far").is_visible()
     reason = page.locator("#saving .reason")
     for name in ("", "a b", "../elsewhere", "x" * 65):
         page.fill("#save-name", name)
@@ -56,7 +57,7 @@ def test_a_name_that_is_refused_says_why_in_the_dialog_and_what_another_one_has_
 
 
 def test_in_the_air_stop_asks_first_and_cancel_and_escape_fly_on(page, live):
-    question = page.locator("#question")
+    question = page.get_by_role("dialog", name="Stop all rotors?")
     for answer in (page.get_by_role("button", name="Cancel").click, lambda: page.keyboard.press("Escape")):
         page.get_by_role("button", name="Stop").click()
         height = live.look()["position"][2] - live.scene["floor"]

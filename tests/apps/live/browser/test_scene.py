@@ -23,7 +23,11 @@ def test_a_push_below_the_threshold_says_how_much_is_missing_and_the_menu_is_rem
     def box():
         return page.get_by_label("person, 1.75 m")
 
-    page.get_by_role("button", name="Show").click()
+    page.get_by_role("button", name="Show").press("Enter")
+    assert page.evaluate("document.activeElement.labels[0].textContent") == "push and moment"
+    page.keyboard.press("Escape")
+    assert page.evaluate("document.activeElement.textContent") == "Show"
+    page.keyboard.press("Enter")
     box().check()
     page.reload()
     page.get_by_role("button", name="Show").click()
