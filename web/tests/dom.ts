@@ -17,6 +17,7 @@ export class FakeElement extends EventTarget {
   children: FakeElement[] = [];
   readonly attributes = new Map<string, string>();
   readonly classList = new FakeClasses();
+  readonly dataset = {};
   textContent = "";
   value = "";
   open = false;
@@ -44,6 +45,11 @@ export class FakeElement extends EventTarget {
 
   querySelector(tag: string): FakeElement | null {
     return this.children.find((one) => one.tag === tag) ?? null;
+  }
+
+  /** All elements of a tag below it. */
+  querySelectorAll(tag: string): FakeElement[] {
+    return this.children.flatMap((one) => [...(one.tag === tag ? [one] : []), ...one.querySelectorAll(tag)]);
   }
 
   /** Something happens to it. */

@@ -57,6 +57,7 @@ export interface ShellPage {
   retry(): void;
   look(view: View): void;
   readonly theme: ThemeChoice;
+  readonly graphicsChoice: GraphicsChoice;
   setGraphics(choice: GraphicsChoice): void;
   setTheme(choice: ThemeChoice): void;
 }
