@@ -113,7 +113,7 @@ const localStorage = {
 };
 const timers = { setTimeout: () => 0, clearTimeout: () => undefined };
 const window = Object.assign(new FakeElement("window"), timers, { localStorage });
-Object.assign(globalThis, { document: page, window, HTMLInputElement: class {} });
+Object.assign(globalThis, { document: page, window, HTMLInputElement: FakeDocument });
 
 /** An element as the fake one that it is. */
 export function fake(element: Element): FakeElement {

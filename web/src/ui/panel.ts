@@ -18,7 +18,7 @@ import type { ThemeChoice } from "./theme.ts";
 /** What the panel needs of the page. */
 export interface PanelPage {
   readonly hand: HandOptions;
-  readonly extra: readonly HTMLElement[];
+  readonly extra: readonly HTMLElement[]; // at its end
   send(message: PageMessage): void;
   readonly theme: ThemeChoice;
   readonly graphicsChoice: GraphicsChoice;

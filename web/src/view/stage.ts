@@ -43,6 +43,7 @@ export class Stage {
     this.sun.shadow.radius = 3;
     this.build(graphics);
     new ResizeObserver(() => this.resize()).observe(surface);
+    this.followScreen();
   }
 
   /** Makes a new renderer: antialiasing of an existing one cannot be switched. */
@@ -93,6 +94,16 @@ export class Stage {
     if (eye.right === half) return;
     Object.assign(eye, { left: -half, right: half, bottom: -half, top: half, near: 1, far: 40 });
     eye.updateProjectionMatrix();
+  }
+
+  /** Keeps the picture as sharp as the screen, also where the window is moved to another one. */
+  private followScreen(): void {
+    const screen = window.matchMedia(`(resolution: ${window.devicePixelRatio}dppx)`);
+    const other = (): void => {
+      this.resize();
+      this.followScreen();
+    };
+    screen.addEventListener("change", other, { once: true });
   }
 
   private resize(): void {

@@ -2,7 +2,7 @@
 
 import re
 
-from chromium import panel, rests
+from chromium import SIZE, panel, rests
 from patience import until
 
 
@@ -34,7 +34,10 @@ def test_a_push_below_the_threshold_says_how_much_is_missing_and_the_menu_is_rem
     assert box().is_checked()
 
 
-def test_a_video_is_saved_when_other_graphics_are_chosen(page, live):
+SHARPNESS = "(({ width, clientWidth }) => width / clientWidth)(document.querySelector('#surface canvas'))"
+
+
+def test_a_video_is_saved_when_other_graphics_are_chosen_which_are_as_sharp_as_the_screen(page, live):
     video = page.locator("#dock button", has_text=re.compile("^(End v|V)ideo$"))
     video.click()
     assert video.text_content() == "End video"
@@ -47,3 +50,7 @@ def test_a_video_is_saved_when_other_graphics_are_chosen(page, live):
     assert saved.value.suggested_filename.endswith((".webm", ".mp4"))
     assert saved.value.path().stat().st_size > 1000
     assert video.text_content() == "Video"
+    screen = page.context.new_cdp_session(page)
+    for ratio in (2, 1):  # of a screen that the window is moved to
+        screen.send("Emulation.setDeviceMetricsOverride", SIZE | {"deviceScaleFactor": ratio, "mobile": False})
+        until(lambda ratio=ratio: page.evaluate(SHARPNESS) == ratio, f"a picture with {ratio} pixels per pixel")
