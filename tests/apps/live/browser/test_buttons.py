@@ -44,7 +44,7 @@ def test_a_name_that_is_refused_says_why_in_the_dialog_and_what_another_one_has_
         assert page.locator("#notices").text_content() == ""
     page.fill("#save-name", "file")
     page.keyboard.press("Enter")
-    until(lambda: "file: cannot be written" in reason.text_content(), "a reason")
+    until(lambda: "file: the name is taken" in reason.text_content(), "a reason")
     page.fill("#save-name", "taken")
     assert not page.is_visible("#saving .reason")
     page.keyboard.press("Enter")
