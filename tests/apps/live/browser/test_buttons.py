@@ -104,7 +104,7 @@ def test_a_reset_leaves_nothing_of_the_plots_before_it(page, live):
 
     page.get_by_role("button", name="\u0394 cm").click()
     before = listeners_after_a_reset()
-    listeners_after_a_reset()
-    assert listeners_after_a_reset() <= before + 40  # the plots of two resets have 130
+    after = [listeners_after_a_reset() for _ in range(4)][-1]
+    assert after <= before + 130  # the plots of one reset have 62, and the last ones may not be collected yet
     assert page.get_by_role("button", name="\u0394 cm").get_attribute("aria-pressed") == "true"
     live.wait_status(lambda status: status["phase"] in ("guided", "hold"), "hover")

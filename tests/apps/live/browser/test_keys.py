@@ -26,7 +26,7 @@ def test_keys_push_after_a_checkbox_was_used_and_beside_those_of_a_slider(page, 
     panel(page, "admittance.mass").locator("input[type=range]").first.focus()
     page.keyboard.down("ArrowRight")
     page.keyboard.down("e")
-    push = live.wait(lambda seen: np.linalg.norm(seen["push"]) > 2.95, "a push of the key that the slider leaves")["push"]
+    push = live.wait(lambda seen: np.linalg.norm(seen["push"]) > 2.95, "a push of another key")["push"]
     assert np.abs(push - [0.0, 0.0, 3.0]).max() < 0.05
     page.keyboard.up("e")
     page.keyboard.up("ArrowRight")
