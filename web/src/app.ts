@@ -43,6 +43,7 @@ export class App implements FlightListener, ShellPage {
   readonly camera: ChaseCamera;
   readonly compare: Compare | undefined;
   current: Frame | null = null;
+  graphicsChoice: GraphicsChoice = "auto";
   private readonly stage: Stage;
   private readonly themes = new ThemeSwitch((theme) => this.recolor(theme));
   private readonly grab: Grab;
@@ -52,7 +53,6 @@ export class App implements FlightListener, ShellPage {
   private readonly rest = new Rest((now) => this.tick(now));
   private readonly labels = labelsIn(byId("labels"));
   private picture: Picture | null = null;
-  private choice: GraphicsChoice = "auto";
   private last = 0;
   private drawn: Frame | null = null;
   private drawnAt = 0;
@@ -130,7 +130,7 @@ export class App implements FlightListener, ShellPage {
   }
 
   setGraphics(choice: GraphicsChoice): void {
-    this.choice = choice;
+    this.graphicsChoice = choice;
     this.rebuild(choice === "auto" ? suitableGraphics() : choice);
   }
 
@@ -218,7 +218,7 @@ export class App implements FlightListener, ShellPage {
     if (this.current && this.picture) this.draw(this.current, this.picture, now, passed);
     this.shell.tick(now);
     const slow = this.frameRate.tick(now, this.drawnAt === now, resting);
-    if (slow && this.choice === "auto" && !this.shell.recording) this.rebuild("light");
+    if (slow && this.graphicsChoice === "auto" && !this.shell.recording) this.rebuild("light");
   }
 
   private draw(frame: Frame, picture: Picture, now: number, passed: number): void {
@@ -244,9 +244,10 @@ export class App implements FlightListener, ShellPage {
     return !this.eye.equals(this.stage.camera.matrixWorld);
   }
 
-  /** Continues at another level of graphics. */
+  /** Continues at another level of graphics, on another canvas: a video of this one ends, and is saved. */
   private rebuild(graphics: Graphics): void {
     if (graphics === this.stage.graphics) return;
+    this.shell.endVideo();
     this.stage.build(graphics);
     this.repaint();
   }

@@ -50,9 +50,9 @@ export class ParameterControl {
   stopRotor(flight: Flight, rotor: number): void {
     const { rotors, never, texts } = this.manifest.page;
     const key = rotors.find((one) => one.rotor === rotor)?.key;
-    if (key === undefined) throw new Refusal(texts.whole_rotors, { rotor });
+    if (key === undefined) throw new Refusal(texts.whole_rotors, { rotor: rotor + 1 });
     const time = this.now.value(key) as number;
-    if (time < never) throw new Refusal(texts.failed_already, { rotor, time });
+    if (time < never) throw new Refusal(texts.failed_already, { rotor: rotor + 1, time });
     this.change(flight, key, flight.time, 0);
   }
 

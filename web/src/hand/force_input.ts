@@ -82,7 +82,7 @@ export class ForceInput {
 
   private readonly down = (event: KeyboardEvent): void => {
     if (event.key === "Meta") this.pressed.clear(); // while it is down, the browser reports no key that goes up
-    if (!(event.code in KEYS) || event.ctrlKey || event.metaKey || event.altKey || typing(event.target)) return;
+    if (!(event.code in KEYS) || event.ctrlKey || event.metaKey || event.altKey || typing(event)) return;
     event.preventDefault();
     this.stamp ||= event.timeStamp;
     this.pressed.add(event.code);
@@ -93,9 +93,11 @@ export class ForceInput {
   };
 }
 
-/** Whether keys belong to an input that a person is filling in. */
-export function typing(target: EventTarget | null): boolean {
-  return target instanceof HTMLElement && target.closest("input, select, textarea, dialog") !== null;
+/** Whether a key belongs to an input that a person is filling in; those of a checkbox and of a slider are few. */
+export function typing({ target, code }: KeyboardEvent): boolean {
+  if (!(target instanceof HTMLElement)) return false;
+  const slides = target.matches("input[type=range]") && /^(Arrow|Page|Home|End)/.test(code);
+  return slides || target.closest("input:not([type=checkbox], [type=range]), select, textarea, dialog") !== null;
 }
 
 /** Forward, left, up of the first gamepad: left stick level, right stick up and down. */

@@ -71,7 +71,7 @@ export class Challenge {
 
   frame(frame: Frame): void {
     const time = frame.scalar("time");
-    if (time < this.time - 1e-4) this.restart();
+    if (time < this.time - 1e-4) this.rewind(time);
     this.time = time;
     if (Number.isNaN(this.start) && frame.vector("push").some((part) => part !== 0)) this.start = time;
     if (this.score?.finished || this.score?.refused || !(time >= this.start + (EVERY * this.poses.length) / POSE)) return;
@@ -135,6 +135,16 @@ export class Challenge {
     const poses = this.poses.slice(0, POSE * (Math.floor(score.time / EVERY) + 2));
     this.best = { score: score.score, poses };
     keep(this.place, JSON.stringify(this.best));
+  }
+
+  /** Back within the run: what was flown until then stays. */
+  private rewind(time: number): void {
+    if (!(time >= this.start)) {
+      this.restart();
+      return;
+    }
+    this.score = null;
+    this.poses.length = Math.min(this.poses.length, POSE * Math.floor((time - this.start) / EVERY + 1));
   }
 
   private restart(): void {

@@ -3,25 +3,24 @@
 import type { SceneMission, SceneParameter } from "../wire/messages.generated.ts";
 import { same } from "../wire/parameters.ts";
 import type { Compare, Comparing, FlownScene, FlownStatus } from "../wire/source.ts";
-import { button, el } from "./dom.ts";
+import { button, el, menu } from "./dom.ts";
 import { worded } from "./numbers.ts";
 
 const KEEP = "keep these settings as a ghost";
 const SAME = "The ghost has the same settings: change one, and see.";
 
 export class Comparison {
-  readonly menu = el("select", { title: "Fly a second flight under the same hand", "aria-label": "Compare" });
+  readonly menu: HTMLSelectElement;
   readonly element = el("div", { id: "comparison", class: "refusal-row", hidden: true });
   private readonly text = el("span");
   private readonly ended = el("span");
 
   constructor(compare: Compare | undefined) {
-    this.menu.addEventListener("change", () => {
-      const mission = this.menu.value;
+    const choose = (mission: string): void => {
       this.menu.selectedIndex = 0;
-      this.menu.blur();
       compare?.(mission ? "fly" : "keep", mission);
-    });
+    };
+    this.menu = menu({ title: "Fly a second flight under the same hand", "aria-label": "Compare" }, choose, true);
     const act = (what: Comparing) => () => compare?.(what);
     const swap = button("again", "Swap", "Fly the ghost, and let this flight be the ghost", act("swap"));
     const end = button("close", "End", "Fly without a ghost", act("end"));

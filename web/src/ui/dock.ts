@@ -1,7 +1,7 @@
 // The buttons of a live flight, below the picture.
 
 import { LIMITS, type PageMessage, type StatusMessage } from "../wire/messages.generated.ts";
-import { button, el, icon } from "./dom.ts";
+import { button, el, icon, menu } from "./dom.ts";
 import { isAirborne } from "./phases.ts";
 import type { Question } from "./question.ts";
 import { RefusalNote } from "./refusal_note.ts";
@@ -41,7 +41,8 @@ export class Dock {
     private readonly actions: DockActions,
   ) {
     this.pauseButton = button("pause", "Pause", "Pause or continue (P)", () => {
-      send({ type: "pause", on: !this.paused });
+      this.pause(!this.paused);
+      send({ type: "pause", on: this.paused });
     });
     this.enableButton = button("hand", "", "Whether the pilot follows pushes", () => {
       this.enable(!this.enabled);
@@ -65,11 +66,7 @@ export class Dock {
   }
 
   status(status: StatusMessage): void {
-    if (status.paused !== this.paused) {
-      this.paused = status.paused;
-      const [name, text] = this.paused ? ["play", "Continue"] : ["pause", "Pause"];
-      this.pauseButton.replaceChildren(icon(name), el("span", {}, text));
-    }
+    this.pause(status.paused);
     const speed = String(Number(status.speed.toPrecision(3)));
     if (document.activeElement !== this.speeds && SPEEDS.includes(speed)) this.speeds.value = speed;
     this.enable(status.enabled);
@@ -118,6 +115,13 @@ export class Dock {
     this.openButton.hidden = !files;
   }
 
+  private pause(on: boolean): void {
+    if (on === this.paused) return;
+    this.paused = on;
+    const [name, text] = on ? ["play", "Continue"] : ["pause", "Pause"];
+    this.pauseButton.replaceChildren(icon(name), el("span", {}, text));
+  }
+
   private enable(on: boolean): void {
     this.enabled = on;
     this.enableButton.setAttribute("aria-pressed", String(on));
@@ -133,12 +137,9 @@ export class Dock {
 
   private speedChoice(): HTMLSelectElement {
     const options = SPEEDS.map((value) => el("option", { value }, `\u00d7${value}`));
-    const select = el("select", { title: "Speed of the flight", "aria-label": "Speed of the flight" }, ...options);
-    select.addEventListener("change", () => {
-      this.send({ type: "speed", factor: Number(select.value) });
-      select.blur();
-    });
-    return select;
+    const name = "Speed of the flight";
+    const act = (factor: string): void => this.send({ type: "speed", factor: Number(factor) });
+    return menu({ title: name, "aria-label": name }, act, false, options);
   }
 
   private resetButton(): HTMLButtonElement {

@@ -41,6 +41,38 @@ export function button(name: string, text: string, title: string, act: () => voi
   return element;
 }
 
+/**
+ * Options to choose from. One that a person chose in the open list acts, and the focus goes back to the page; one that
+ * was reached by arrow keys on the closed list acts too, or with `late` only on Enter or when the focus leaves.
+ */
+export function menu(
+  attributes: Attributes,
+  act: (value: string) => void,
+  late: boolean,
+  options: HTMLOptionElement[] = [],
+): HTMLSelectElement {
+  const select = el("select", attributes, ...options);
+  let stepped = false;
+  let waiting: string | null = null;
+  const take = (): void => {
+    const value = waiting;
+    waiting = null;
+    if (value !== null && value === select.value) act(value); // else another one was shown meanwhile
+  };
+  select.addEventListener("pointerdown", () => (stepped = false));
+  select.addEventListener("keydown", ({ key, altKey }) => {
+    stepped = !altKey && key !== " " && key !== "Enter"; // which open the list
+    if (key === "Enter") take();
+  });
+  select.addEventListener("change", () => {
+    waiting = select.value;
+    if (!stepped || !late) take();
+    if (!stepped) select.blur();
+  });
+  select.addEventListener("blur", take);
+  return select;
+}
+
 /** One choice out of a few, side by side. */
 export function choice<T extends string>(
   name: string,

@@ -19,9 +19,8 @@ export interface HandRows {
   planes: HTMLElement;
 }
 
-export function handRows(options: HandOptions, maxForce: number): HandRows {
+export function handRows(options: HandOptions): HandRows {
   const { input, force } = forceInput(options);
-  force.limit(maxForce);
   const pull = choice("Where the hand pulls", { point: "at the point", centre: "centre of mass" }, options.at, (at) => {
     options.at = at;
   });

@@ -69,7 +69,7 @@ export function helpDialog(replay: boolean): HTMLDialogElement {
   close.addEventListener("click", () => dialog.close());
   const hold = "One page holds the beam at a time. It lets go when it loses the focus or the connection.";
   const notes = replay ? [] : [el("p", {}, hold)];
-  const parts = [el("h2", {}, replay ? "A saved flight" : "Push the beam yourself"), el("dl", {}, ...keys)];
+  const parts = [el("h2", { id: "help-title" }, replay ? "A saved flight" : "Push the beam yourself"), el("dl", {}, ...keys)];
   dialog.replaceChildren(...parts, el("h3", {}, "What is shown"), el("dl", {}, ...legend), ...notes, close);
   dialog.addEventListener("click", (event) => {
     if (event.target === dialog) dialog.close();

@@ -71,7 +71,10 @@ export class Laboratory {
     this.marks.findings(scene.replay?.findings ?? []);
     for (const { time, text } of scene.replay?.changes ?? []) this.marks.setting(time, text);
     const chose = (time: number): void => this.choose(time);
-    this.plots = new Plots(scene, byId("plots"), graphics, this.history, this.window, this.marks, chose);
+    const before = this.plots;
+    before?.remove();
+    const place = byId("plots");
+    this.plots = new Plots(scene, place, graphics, this.history, this.window, this.marks, chose, before?.asError);
   }
 
   frame(frame: Frame): void {

@@ -192,10 +192,10 @@ export class Lecture {
   }
 
   private readonly key = (event: KeyboardEvent): void => {
-    if (!this.on || typing(event.target) || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (!this.on || typing(event) || event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.code === "Escape") this.toggle();
     const by = Number(NEXT.includes(event.code)) - Number(BACK.includes(event.code));
-    if (!by || (event.code === "Space" && event.target instanceof HTMLButtonElement)) return;
+    if (!by || (event.code === "Space" && (event.target as Element).matches("button, input"))) return;
     event.preventDefault();
     event.stopImmediatePropagation();
     if (event.repeat) return;

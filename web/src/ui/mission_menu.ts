@@ -1,17 +1,14 @@
 // A menu of missions in place of the mission's name.
 
 import type { SceneMission } from "../wire/messages.generated.ts";
-import { byId, el } from "./dom.ts";
+import { byId, el, menu } from "./dom.ts";
 
 export class MissionMenu {
-  private readonly menu = el("select", { id: "missions", title: "Mission", "aria-label": "Mission" });
+  private readonly menu: HTMLSelectElement;
 
   constructor(missions: readonly SceneMission[], chosen: (name: string) => void) {
-    this.menu.append(...missions.map(({ name, title }) => el("option", { value: name, title }, name)));
-    this.menu.addEventListener("change", () => {
-      chosen(this.menu.value);
-      this.menu.blur();
-    });
+    const options = missions.map(({ name, title }) => el("option", { value: name, title }, name));
+    this.menu = menu({ id: "missions", title: "Mission", "aria-label": "Mission" }, chosen, true, options);
     byId("mission").hidden = true;
     byId("mission").after(this.menu);
   }

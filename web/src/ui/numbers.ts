@@ -27,11 +27,13 @@ export class SliderScale {
     return Math.round(1000 * fraction);
   }
 
+  /** The value at a place, with three figures or as many as tell it from those beside it. */
   value(place: number): number {
     const fraction = place / 1000;
     const { low, high } = this;
     const raw = this.logarithmic ? low * (high / low) ** fraction : low + fraction * (high - low);
-    return Number(raw.toPrecision(3));
+    const rounded = [3, 4, 5, 6].map((figures) => Number(raw.toPrecision(figures)));
+    return rounded.find((value) => value >= low && value <= high && this.place(value) === place) ?? raw;
   }
 }
 

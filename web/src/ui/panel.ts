@@ -18,9 +18,10 @@ import type { ThemeChoice } from "./theme.ts";
 /** What the panel needs of the page. */
 export interface PanelPage {
   readonly hand: HandOptions;
-  readonly extra: readonly HTMLElement[];
+  readonly extra: readonly HTMLElement[]; // at its end
   send(message: PageMessage): void;
   readonly theme: ThemeChoice;
+  readonly graphicsChoice: GraphicsChoice;
   setGraphics(choice: GraphicsChoice): void;
   setTheme(choice: ThemeChoice): void;
 }
@@ -29,6 +30,7 @@ export class Panel {
   private editors = new Map<string, ParameterEditor>();
   private rotors: RotorMap | null = null;
   private open: Record<string, boolean> = {};
+  private built = ""; // what the parts are of, as JSON
   private force: LimitedForce | null = null;
   private planes: HTMLElement | null = null;
   private initial: { mission: string; values: Map<string, ParameterValue> } = { mission: "", values: new Map() };
@@ -39,11 +41,21 @@ export class Panel {
     private readonly undo: HTMLElement,
   ) {}
 
+  /** Shows a flight; the parts stay, with what is half written in them, where they are the same. */
   scene(scene: FlightScene): void {
+    const parameters = this.remembered(scene);
+    const parts = JSON.stringify([scene.vehicle, parameters.map((one) => ({ ...one, value: null }))]);
+    if (parts !== this.built) this.build(scene, parameters);
+    this.built = parts;
+    for (const { key, value } of parameters) this.editors.get(key)!.begin(value);
+    this.force?.limit(scene.spring.max_force);
+  }
+
+  private build(scene: FlightScene, parameters: SceneParameter[]): void {
     for (const one of this.place.querySelectorAll("details")) this.open[one.dataset["name"] ?? ""] = one.open;
     const live = !scene.replay;
     const send = this.page.send.bind(this.page);
-    this.editors = new Map(this.remembered(scene).map((one) => [one.key, new ParameterEditor(one, send)]));
+    this.editors = new Map(parameters.map((one) => [one.key, new ParameterEditor(one, send)]));
     this.rotors = live ? new RotorMap(scene, send) : null;
     const names = [...new Set(scene.parameters.map(({ group }) => group))];
     const groups = names.map((name) => {
@@ -54,7 +66,7 @@ export class Panel {
       );
     });
     this.place.replaceChildren(
-      ...(live ? [this.group("hand", this.hand(scene), true)] : []),
+      ...(live ? [this.group("hand", this.hand(), true)] : []),
       ...groups,
       ...(groups.length ? [this.undo, this.restoreAll()] : []),
       ...(this.rotors ? [this.group("rotors", [this.rotors.element])] : []),
@@ -106,14 +118,14 @@ export class Panel {
     return el("details", { open: this.open[name] ?? open, "data-name": name }, summary, ...children);
   }
 
-  private hand(scene: FlightScene): HTMLElement[] {
-    const { rows, force, planes } = handRows(this.page.hand, scene.spring.max_force);
+  private hand(): HTMLElement[] {
+    const { rows, force, planes } = handRows(this.page.hand);
     [this.force, this.planes] = [force, planes];
     return rows;
   }
 
   private picture(): HTMLElement[] {
-    const graphics = choice("Graphics", { auto: "auto", full: "full", light: "light" }, "auto", (value) => {
+    const graphics = choice("Graphics", { auto: "auto", full: "full", light: "light" }, this.page.graphicsChoice, (value) => {
       this.page.setGraphics(value);
     });
     const themes = { auto: "automatic", light: "light", dark: "dark" };

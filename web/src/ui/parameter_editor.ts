@@ -49,6 +49,13 @@ export class ParameterEditor {
     this.show(parameter.value);
   }
 
+  /** The value with which a flight begins; what is half written stays if it is the one that was shown. */
+  begin(value: ParameterValue): void {
+    const other = this.asked !== null || !same(this.value, value);
+    this.refuse("");
+    if (other) this.show(value);
+  }
+
   /** The server has set a value; it gets there within `duration` seconds. */
   changed(value: ParameterValue, duration: number): void {
     // an answer to an earlier message does not undo what was entered since

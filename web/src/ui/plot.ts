@@ -43,6 +43,7 @@ export class Plot {
   private readonly body = el("div", { class: "canvas" });
   private readonly plot: uPlot;
   private readonly cursor: PlotCursor;
+  private readonly sizes = new ResizeObserver(() => this.fit());
   private dirty = true;
 
   constructor(
@@ -61,7 +62,14 @@ export class Plot {
     this.plot = graphics === "light" ? onProcessor(make) : make();
     this.cursor = new PlotCursor(this.plot, look.curves, look.rows);
     listen(this.plot, window, listener);
-    new ResizeObserver(() => this.fit()).observe(this.body);
+    this.sizes.observe(this.body);
+  }
+
+  /** Takes it off the page, with what it hears of the window. */
+  remove(): void {
+    this.sizes.disconnect();
+    this.plot.destroy();
+    this.card.remove();
   }
 
   update(columns: uPlot.AlignedData): void {

@@ -42,7 +42,6 @@ const along = (look: (name: string, i: number) => Partial<Curve>): Curve[] =>
 export class Plots {
   threshold: Vector;
   private readonly all: PlotWithData[];
-  private asError = false;
   private turn = 0;
 
   constructor(
@@ -53,10 +52,15 @@ export class Plots {
     private readonly window: TimeWindow,
     private readonly marks: Marks,
     private readonly chose: (time: number) => void,
+    public asError = false,
   ) {
     this.threshold = scene.threshold;
     this.all = [this.pushes(), this.tracking(), this.thrusts(), this.disturbance()];
     place.replaceChildren(...this.all.map(({ plot }) => plot.card));
+  }
+
+  remove(): void {
+    for (const { plot } of this.all) plot.remove();
   }
 
   /** Draws the plot whose turn it is, so that no picture waits for all of them. */
@@ -105,7 +109,8 @@ export class Plots {
   private tracking(): PlotWithData {
     const reference = along((name, i) => ({ ...DASHED, name: `ref. ${name}`, ...(i === 2 && { label: "ref." }) }));
     const actual = along((label) => ({ label }));
-    const more = choice("What is shown", { position: "m", error: "\u0394 cm" }, "position", (value) => {
+    const now = this.asError ? "error" : "position";
+    const more = choice("What is shown", { position: "m", error: "\u0394 cm" }, now, (value) => {
       this.asError = value === "error";
     });
     const look = { title: "Position", unit: "", curves: [...reference, ...actual], least: 0.5, more, rows: 3 };

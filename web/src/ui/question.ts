@@ -39,7 +39,8 @@ export class Question {
     dialog.onclick = (event) => {
       if (event.target === dialog) dialog.close();
     };
-    dialog.replaceChildren(el("h2", {}, title), el("p", {}, text), el("div", { class: "actions" }, ...buttons));
+    const head = el("h2", { id: "question-title" }, title);
+    dialog.replaceChildren(head, el("p", {}, text), el("div", { class: "actions" }, ...buttons));
     if (!dialog.open) dialog.showModal();
   }
 }

@@ -2,7 +2,7 @@
 
 import type { SceneReplay } from "../wire/messages.generated.ts";
 import type { Replay } from "../wire/replay.ts";
-import { button, el, icon } from "./dom.ts";
+import { button, el, icon, menu } from "./dom.ts";
 
 const SPEEDS = ["0.1", "0.25", "0.5", "1", "2", "4"];
 const STEP = 1; // s, of an arrow key
@@ -24,11 +24,7 @@ export class ReplayDock {
     const options = SPEEDS.map((factor) =>
       el("option", { value: factor, selected: Number(factor) === speed }, `\u00d7${factor}`),
     );
-    const speeds = el("select", { "aria-label": "Speed" }, ...options);
-    speeds.addEventListener("change", () => {
-      flight.setSpeed(Number(speeds.value));
-      speeds.blur();
-    });
+    const speeds = menu({ "aria-label": "Speed" }, (factor) => flight.setSpeed(Number(factor)), false, options);
     const video = button("video", "Video", "Record a video of the picture", record, "film");
     const time = el("output", {}, this.clock, el("span", {}, ` / ${end.toFixed(1)} s`));
     place.replaceChildren(el("div", { class: "strip player" }, this.player, timeline, time, speeds, video));

@@ -11,7 +11,7 @@ export class RotorMap {
   private readonly fills: SVGElement[] = [];
   private readonly buttons: SVGElement[] = [];
   private readonly maxThrusts: number[];
-  private readonly note = el("p", { class: "note" });
+  private readonly note = el("p", { class: "note", role: "status" });
   private armed = -1;
   private timer = 0;
 
@@ -34,6 +34,7 @@ export class RotorMap {
     }
     this.element = el("div", { class: "rotors" }, picture, this.note);
     this.arm(-1);
+    this.markFailed([]);
   }
 
   showThrusts(values: Float32Array): void {
@@ -44,7 +45,12 @@ export class RotorMap {
 
   /** Marks the rotors that have stopped for good. */
   markFailed(rotors: readonly number[]): void {
-    this.buttons.forEach((spot, i) => spot.classList.toggle("failed", rotors.includes(i)));
+    this.buttons.forEach((spot, i) => {
+      const failed = rotors.includes(i);
+      spot.classList.toggle("failed", failed);
+      spot.setAttribute("aria-disabled", String(failed));
+      spot.setAttribute("aria-label", failed ? `Rotor ${i + 1}, stopped` : `Stop rotor ${i + 1}`);
+    });
   }
 
   private rotor(quadrotor: SceneQuadrotor, i: number): SVGElement {
@@ -56,11 +62,12 @@ export class RotorMap {
     const cross = 0.5 * radius;
     const arm = 2 * cross;
     const path = `M${place.cx - cross} ${place.cy - cross}l${arm} ${arm}m0 ${-arm}l${-arm} ${arm}`;
-    const label = `Stop rotor ${number + 1}`;
-    const spot = svg("g", { role: "button", tabindex: 0, "aria-label": label }, fill, rim, svg("path", { d: path }));
+    const spot = svg("g", { role: "button", tabindex: 0 }, fill, rim, svg("path", { d: path }));
     spot.addEventListener("click", () => this.press(number));
     spot.addEventListener("keydown", (event) => {
-      if (event.key === "Enter") this.press(number);
+      if (event.key !== "Enter" && event.key !== " ") return;
+      event.preventDefault(); // Space would scroll
+      this.press(number);
     });
     this.fills.push(fill);
     this.buttons.push(spot);

@@ -8,10 +8,10 @@ export class SaveDialog {
   private readonly reason = el("p", { class: "reason", role: "alert", id: "save-reason" });
   private readonly submit = el("button", { type: "submit", class: "go" }, "Save");
 
-  constructor(private readonly save: (name: string) => void) {
+  constructor(private readonly save: (name: string) => number | null) {
     const cancel = el("button", { type: "button" }, "Cancel");
     cancel.addEventListener("click", () => this.dialog.close());
-    const title = el("h2", {}, "Save the flight so far");
+    const title = el("h2", { id: "saving-title" }, "Save the flight so far");
     const actions = el("div", { class: "actions" }, cancel, this.submit);
     const label = el("label", { for: "save-name" }, "Name");
     const form = el("form", {}, title, label, this.name, this.reason, actions);
@@ -20,7 +20,7 @@ export class SaveDialog {
     form.addEventListener("submit", (event) => {
       event.preventDefault();
       this.show("", true);
-      this.save(this.name.value);
+      if (this.save(this.name.value) === null) this.refused("No flight is open now: nothing was saved.");
     });
     this.dialog.replaceChildren(form);
   }

@@ -25,6 +25,9 @@ export class SensesOfFlight {
   constructor(private readonly on: Senses) {
     // a browser lets a page sound once a person has done something
     window.addEventListener("pointerdown", () => void this.context?.resume());
+    document.addEventListener("visibilitychange", () => {
+      void (document.hidden ? this.context?.suspend() : this.context?.resume());
+    });
   }
 
   begin(scene: FlightScene): void {

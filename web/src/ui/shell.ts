@@ -1,9 +1,8 @@
 // Everything around the picture: bar, panel, plots, buttons, notices, and the keys that press them.
 
 import { typing } from "../hand/force_input.ts";
-import type { HandOptions } from "../hand/options.ts";
 import type { ChaseCamera, View } from "../view/camera.ts";
-import type { FrameRate, Graphics, GraphicsChoice } from "../view/graphics.ts";
+import type { FrameRate, Graphics } from "../view/graphics.ts";
 import type { Frame } from "../wire/frames.ts";
 import type { Latency } from "../wire/latency.ts";
 import type { PageMessage, ParameterValue, SceneMission, StatusMessage } from "../wire/messages.generated.ts";
@@ -23,14 +22,13 @@ import { Laboratory } from "./laboratory.ts";
 import { Lecture } from "./lecture.ts";
 import { MissionChoice } from "./mission_choice.ts";
 import { Notices } from "./notices.ts";
-import { Panel } from "./panel.ts";
+import { Panel, type PanelPage } from "./panel.ts";
 import { Question } from "./question.ts";
 import { ReplayDock } from "./replay_dock.ts";
 import { SaveDialog } from "./save_dialog.ts";
 import { SensesOfFlight } from "./senses.ts";
 import { type Shown, ShowMenu } from "./show_menu.ts";
 import { StatusBar } from "./status_bar.ts";
-import type { ThemeChoice } from "./theme.ts";
 import { Undo } from "./undo.ts";
 import { VideoRecorder } from "./video_recorder.ts";
 
@@ -40,10 +38,8 @@ const NARROW = 900; // pixels: below it the panel starts closed
 const LOW = 450; // pixels of height: below it the plots start closed
 
 /** What the shell needs of the page. */
-export interface ShellPage {
+export interface ShellPage extends PanelPage {
   readonly replay: Replay | null;
-  readonly extra: readonly HTMLElement[]; // at the end of the panel
-  readonly hand: HandOptions;
   readonly shown: Shown;
   readonly camera: ChaseCamera;
   readonly canvas: HTMLCanvasElement;
@@ -53,12 +49,9 @@ export interface ShellPage {
   readonly current: Frame | null;
   readonly companions: readonly SceneMission[] | undefined;
   readonly compare: Compare | undefined;
-  send(message: PageMessage): void;
+  send(message: PageMessage): number | null;
   retry(): void;
   look(view: View): void;
-  readonly theme: ThemeChoice;
-  setGraphics(choice: GraphicsChoice): void;
-  setTheme(choice: ThemeChoice): void;
 }
 
 export class Shell {
@@ -118,6 +111,10 @@ export class Shell {
   /** Whether a video is being recorded. */
   get recording(): boolean {
     return this.video.running;
+  }
+
+  endVideo(): void {
+    if (this.recording) this.toggleVideo();
   }
 
   scene(scene: FlownScene): void {
@@ -272,7 +269,7 @@ export class Shell {
 
   private readonly key = (event: KeyboardEvent): void => {
     if (this.undo.key(event)) event.preventDefault();
-    if (typing(event.target) || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (typing(event) || event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.repeat && !event.code.startsWith("Arrow")) return;
     this.keys().get(event.code)?.();
   };

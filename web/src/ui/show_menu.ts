@@ -57,12 +57,15 @@ export class ShowMenu {
       if (target instanceof Node && !this.menu.contains(target) && !this.button.contains(target)) this.open(false);
     });
     window.addEventListener("keydown", ({ key }) => {
-      if (key === "Escape") this.open(false);
+      if (key !== "Escape" || this.menu.hidden !== false) return;
+      this.open(false);
+      this.button.focus();
     });
   }
 
   private open(on: boolean): void {
     this.menu.hidden = !on;
     this.button.setAttribute("aria-expanded", String(on));
+    if (on) this.menu.querySelector("input")!.focus();
   }
 }

@@ -20,7 +20,7 @@ export class Undo {
   private last = -Infinity; // ms
   private readonly buttons: HTMLButtonElement[];
 
-  constructor(private readonly send: (message: PageMessage) => void) {
+  constructor(private readonly send: (message: PageMessage) => number | null) {
     this.buttons = [
       button("back", "Undo", "Take the last change of a setting back (Ctrl+Z)", () => this.undo()),
       button("again", "Redo", "Make it again (Ctrl+Shift+Z)", () => this.redo()),
@@ -54,33 +54,35 @@ export class Undo {
   }
 
   undo(): void {
-    const group = this.done.pop();
-    if (!group) return;
-    this.undone.push(group);
-    for (const { key, before } of [...group].reverse()) this.set(key, before);
+    const group = [...(this.done.at(-1) ?? [])].reverse();
+    if (group.every(({ key, before }) => this.set(key, before))) this.undone.push(...this.done.splice(-1));
+    this.show();
   }
 
   redo(): void {
-    const group = this.undone.pop();
-    if (!group) return;
-    this.done.push(group);
-    for (const { key, after } of group) this.set(key, after);
+    const group = this.undone.at(-1) ?? [];
+    if (group.every(({ key, after }) => this.set(key, after))) this.done.push(...this.undone.splice(-1));
+    this.show();
   }
 
-  /** Whether a key pressed is one of these; not while a number is being written, whose own undo that is. */
-  key({ ctrlKey, metaKey, shiftKey, code, target }: KeyboardEvent): boolean {
+  /** Whether a key pressed is one of these; not in a dialog, nor while a number is written, whose own undo that is. */
+  key({ ctrlKey, metaKey, shiftKey, key, target }: KeyboardEvent): boolean {
     const writes = target instanceof HTMLInputElement && target.value !== target.defaultValue && target.type !== "range";
-    if (!(ctrlKey || metaKey) || writes || !["KeyZ", "KeyY"].includes(code)) return false;
-    if (shiftKey || code === "KeyY") this.redo();
+    const letter = key.toLowerCase(); // where it stands on the keyboard differs from country to country
+    if (!(ctrlKey || metaKey) || writes || !["z", "y"].includes(letter)) return false;
+    if (document.querySelector("dialog[open]")) return false;
+    if (shiftKey || letter === "y") this.redo();
     else this.undo();
     return true;
   }
 
-  private set(key: string, value: ParameterValue): void {
+  /** Sends a value; false if it is not sent, as no flight is connected. */
+  private set(key: string, value: ParameterValue): boolean {
     this.last = -Infinity;
     this.awaited.set(key, JSON.stringify(value));
-    this.send({ type: "set", key, value });
-    this.show();
+    if (this.send({ type: "set", key, value }) !== null) return true;
+    this.awaited.delete(key);
+    return false;
   }
 
   private show(): void {

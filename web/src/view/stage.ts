@@ -19,7 +19,7 @@ import type { Graphics } from "./graphics.ts";
 import { palette } from "./palette.ts";
 import { SUN } from "./shadow.ts";
 
-const LIGHT_RATIO = 0.75; // pixels of the picture per pixel of the page, in light graphics
+const LIGHT_RATIO = 0.75; // in light graphics
 
 export class Stage {
   readonly scene = new Scene();
@@ -79,6 +79,7 @@ export class Stage {
 
   /** Draws the surroundings of a vehicle of a reach [m]. */
   draw(vehicle: Vector3, reach: number): void {
+    if (this.renderer.getPixelRatio() !== this.ratio) this.resize(); // the window is on another screen
     const apart = this.camera.position.distanceTo(vehicle);
     this.fog.near = apart + 8;
     this.fog.far = 1.5 * apart + 36;
@@ -95,12 +96,16 @@ export class Stage {
     eye.updateProjectionMatrix();
   }
 
+  /** Pixels of the picture per pixel of the page. */
+  private get ratio(): number {
+    return this.graphics === "light" ? LIGHT_RATIO : Math.min(window.devicePixelRatio, 2);
+  }
+
   private resize(): void {
     const [width, height] = [this.surface.clientWidth || 1, this.surface.clientHeight || 1];
-    const ratio = this.graphics === "light" ? LIGHT_RATIO : Math.min(window.devicePixelRatio, 2);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
-    this.renderer.setPixelRatio(ratio);
+    this.renderer.setPixelRatio(this.ratio);
     this.renderer.setSize(width, height);
     this.renderer.render(this.scene, this.camera); // a canvas of a new size is black
   }

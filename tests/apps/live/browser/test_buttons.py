@@ -32,6 +32,7 @@ def test_a_name_that_is_refused_says_why_in_the_dialog_and_what_another_one_has_
     page.get_by_role("button", name="Cancel").click()
     assert not page.is_visible("#saving")
     page.click("#dock span:text-is('Save')")
+    assert page.get_by_role("dialog", name="Save the flight so far").is_visible()
     reason = page.locator("#saving .reason")
     for name in ("", "a b", "../elsewhere", "x" * 65):
         page.fill("#save-name", name)
@@ -56,7 +57,7 @@ def test_a_name_that_is_refused_says_why_in_the_dialog_and_what_another_one_has_
 
 
 def test_in_the_air_stop_asks_first_and_cancel_and_escape_fly_on(page, live):
-    question = page.locator("#question")
+    question = page.get_by_role("dialog", name="Stop all rotors?")
     for answer in (page.get_by_role("button", name="Cancel").click, lambda: page.keyboard.press("Escape")):
         page.get_by_role("button", name="Stop").click()
         height = live.look()["position"][2] - live.scene["floor"]
@@ -86,4 +87,24 @@ def test_it_lands_is_reset_and_the_page_begins_anew(page, live):
     scene = live.scene
     page.click("#dock button:has-text('Reset')")
     live.until(lambda: live.scene is not scene, "a new flight")
+    live.wait_status(lambda status: status["phase"] in ("guided", "hold"), "hover")
+
+
+def test_a_reset_leaves_nothing_of_the_plots_before_it(page, live):
+    tools = page.context.new_cdp_session(page)
+
+    def listeners_after_a_reset():
+        scene = live.scene
+        page.click("#dock button:has-text('Reset')")
+        live.until(lambda: live.scene is not scene, "a new flight")
+        until(lambda: page.locator(".plot").count() == 4, "its plots")
+        live.wait(lambda seen: seen["time"] > 0.3, "a flight that goes on")
+        tools.send("HeapProfiler.collectGarbage")
+        return tools.send("Memory.getDOMCounters")["jsEventListeners"]
+
+    page.get_by_role("button", name="\u0394 cm").click()
+    before = listeners_after_a_reset()
+    after = [listeners_after_a_reset() for _ in range(4)][-1]
+    assert after <= before + 130  # the plots of one reset have 62, and the last ones may not be collected yet
+    assert page.get_by_role("button", name="\u0394 cm").get_attribute("aria-pressed") == "true"
     live.wait_status(lambda status: status["phase"] in ("guided", "hold"), "hover")

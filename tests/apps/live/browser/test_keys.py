@@ -15,6 +15,25 @@ def test_a_key_pushes_with_the_force_that_is_stated(page, live):
     live.wait(rests, "rest")
 
 
+def test_keys_push_after_a_checkbox_was_used_and_beside_those_of_a_slider(page, live):
+    live.wait(rests, "rest")
+    page.get_by_role("button", name="Show").click()
+    page.get_by_label("person, 1.75 m").click()
+    page.keyboard.down("ArrowUp")
+    live.wait(lambda seen: abs(np.linalg.norm(seen["push"]) - 3.0) < 0.05, "a push of 3 N")
+    page.keyboard.up("ArrowUp")
+    live.wait(lambda seen: np.linalg.norm(seen["push"]) < 0.01, "no push")
+    panel(page, "admittance.mass").locator("input[type=range]").first.focus()
+    page.keyboard.down("ArrowRight")
+    page.keyboard.down("e")
+    push = live.wait(lambda seen: np.linalg.norm(seen["push"]) > 2.95, "a push of another key")["push"]
+    assert np.abs(push - [0.0, 0.0, 3.0]).max() < 0.05
+    page.keyboard.up("e")
+    page.keyboard.up("ArrowRight")
+    page.get_by_text("Restore all values").click()
+    live.wait(rests, "rest")
+
+
 GAMEPAD = """
 window.pad = { connected: true, axes: [0, 0, 0, 0], buttons: [] };
 navigator.getGamepads = () => [null, window.pad];

@@ -104,7 +104,8 @@ def test_on_a_phone_nothing_of_a_flight_is_cut_off_covered_or_too_small_for_a_fi
     assert margin < x.min() < x.max() < picture["width"] - margin
     assert page.evaluate("p => p.scrollWidth <= p.clientWidth", page.query_selector("#panel"))
     page.click("#show-help")
-    assert page.locator("#help dt").first.inner_text() == "Drag the beam with a finger"
+    told = page.get_by_role("dialog", name="Push the beam yourself")
+    assert told.locator("dt").first.inner_text() == "Drag the beam with a finger"
     assert page.evaluate("document.getElementById('help').scrollTop") == 0
     assert page.wrong == []
     page.context.close()

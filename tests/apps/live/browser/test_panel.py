@@ -25,7 +25,7 @@ def test_a_dead_rotor_is_marked_on_every_page(browser, live):
 
     page = opened(browser, live.address, lambda one: one.route_web_socket("**/ws", told))
     until(lambda: page.locator("#panel g.failed").count() == 1, "a rotor that is marked")
-    assert page.locator("#panel g.failed").get_attribute("aria-label") == "Stop rotor 3"
+    assert page.locator("#panel g.failed").get_attribute("aria-label") == "Rotor 3, stopped"
     page.context.close()
 
 

@@ -2,7 +2,7 @@
 
 import re
 
-from chromium import rests
+from chromium import SIZE, panel, rests
 from patience import until
 
 
@@ -23,8 +23,34 @@ def test_a_push_below_the_threshold_says_how_much_is_missing_and_the_menu_is_rem
     def box():
         return page.get_by_label("person, 1.75 m")
 
-    page.get_by_role("button", name="Show").click()
+    page.get_by_role("button", name="Show").press("Enter")
+    assert page.evaluate("document.activeElement.labels[0].textContent") == "push and moment"
+    page.keyboard.press("Escape")
+    assert page.evaluate("document.activeElement.textContent") == "Show"
+    page.keyboard.press("Enter")
     box().check()
     page.reload()
     page.get_by_role("button", name="Show").click()
     assert box().is_checked()
+
+
+SHARPNESS = "(({ width, clientWidth }) => width / clientWidth)(document.querySelector('#surface canvas'))"
+
+
+def test_a_video_is_saved_when_other_graphics_are_chosen_which_are_as_sharp_as_the_screen(page, live):
+    video = page.locator("#dock button", has_text=re.compile("^(End v|V)ideo$"))
+    video.click()
+    assert video.text_content() == "End video"
+    page.wait_for_timeout(1500.0)  # ms, of a video
+    panel(page, "admittance.mass")
+    page.locator("#panel summary", has_text="picture").click()
+    graphics = page.get_by_role("group", name="Graphics")
+    with page.expect_download() as saved:
+        graphics.get_by_role("button", name="full").click()
+    assert saved.value.suggested_filename.endswith((".webm", ".mp4"))
+    assert saved.value.path().stat().st_size > 1000
+    assert video.text_content() == "Video"
+    screen = page.context.new_cdp_session(page)
+    for ratio in (2, 1):  # of a screen that the window is moved to
+        screen.send("Emulation.setDeviceMetricsOverride", SIZE | {"deviceScaleFactor": ratio, "mobile": False})
+        until(lambda ratio=ratio: page.evaluate(SHARPNESS) == ratio, f"a picture with {ratio} pixels per pixel")

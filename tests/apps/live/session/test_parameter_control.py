@@ -79,7 +79,7 @@ def test_the_numbers_of_a_users_controller_are_settings_within_its_bounds_and_te
 
 
 def test_a_rotor_that_cannot_fail_is_not_killed(session):
-    with pytest.raises(tl.InputError, match="rotor = 3: the rotors of this mission cannot fail"):
+    with pytest.raises(tl.InputError, match="rotor 4: the rotors of this mission cannot fail"):
         say(session, "kill", rotor=3)
 
 

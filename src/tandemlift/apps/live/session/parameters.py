@@ -193,9 +193,9 @@ class ParameterControl:
         faults = flight.now.faults
         at = [i for i, f in enumerate(faults) if 4 * (f.quadrotor - 1) + f.rotor - 1 == rotor]
         if not at:
-            raise InputError(checks.WHOLE_ROTORS.format(rotor=rotor))
+            raise InputError(checks.WHOLE_ROTORS.format(rotor=rotor + 1))
         if faults[at[0]].time < NEVER:
-            raise InputError(checks.FAILED_ALREADY.format(rotor=rotor, time=faults[at[0]].time))
+            raise InputError(checks.FAILED_ALREADY.format(rotor=rotor + 1, time=faults[at[0]].time))
         self._change(flight, f"faults.{at[0]}.time", flight.step * flight.dt, 0.0)
 
     def tare(self, flight: RecordedFlight) -> str:

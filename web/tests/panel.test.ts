@@ -1,0 +1,37 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { fake, type FakeElement } from "./dom.ts";
+import { Panel, type PanelPage } from "../src/ui/panel.ts";
+import type { FlightScene } from "../src/wire/messages.generated.ts";
+
+const nothing = (): void => undefined;
+
+/** A flight with one setting, up to a most. */
+function flight(value: number, max = 9): FlightScene {
+  const vehicle = { quadrotors: [], payload: { length: 1, width: 0.1, position: [0, 0, 0] } };
+  const parameters = [{ key: "mass", label: "mass", group: "body", value, initial: 1, min: 0, max }];
+  return { mission: "hover", vehicle, parameters, spring: { max_force: 20 } } as unknown as FlightScene;
+}
+
+test("a flight that begins again leaves what is half written, and other flights have what was chosen", () => {
+  const place = document.createElement("aside");
+  const hand = { at: "point", plane: "facing", force: 3, directions: "view" } as const;
+  const choices = { theme: "dark", graphicsChoice: "full", setGraphics: nothing, setTheme: nothing } as const;
+  const page: PanelPage = { hand, extra: [], send: () => 1, ...choices };
+  const panel = new Panel(place, page, document.createElement("div"));
+  const inputs = (): FakeElement[] => fake(place).querySelectorAll("input");
+  const written = (): FakeElement => inputs().find((one) => one.attributes.get("aria-label") === "mass")!;
+  panel.scene(flight(1));
+  const entry = written();
+  entry.value = "2.";
+  panel.scene(flight(1));
+  assert.equal(written(), entry);
+  assert.equal(entry.value, "2.");
+  panel.scene(flight(4));
+  assert.equal(entry.value, "4");
+  panel.scene(flight(4, 50));
+  assert.notEqual(written(), entry);
+  const chosen = fake(place).querySelectorAll("button").filter((one) => one.attributes.get("aria-pressed") === "true");
+  assert.deepEqual(chosen.map((one) => one.textContent).slice(-2), ["full", "dark"]);
+});
