@@ -317,9 +317,11 @@ RECIPES_TEXT = (ROOT / "CONTRIBUTING.md").read_text("utf-8").partition("## Recip
 
 
 def test_the_files_that_the_recipes_name_are_there():
-    paths = set(re.findall(r"`([\w/]+/\w+\.(?:py|md|ts|toml))`", RECIPES_TEXT.replace("/NAME.py", "/push.py")))
+    paths = set(re.findall(r"`([\w/]+\.(?:py|md|ts|toml))`", RECIPES_TEXT.replace("NAME.py", "push.py")))
     folders = (ROOT, PACKAGE, PACKAGE / "pictures" / "report")
-    assert [path for path in paths if not any((folder / path).is_file() for folder in folders)] == []
+    names = {path.name for folder in ("src", "tests", "docs", "web/src") for path in (ROOT / folder).rglob("*.*")}
+    there = [any((folder / p).is_file() for folder in folders) or ("/" not in p and p in names) for p in paths]
+    assert [path for path, is_there in zip(paths, there, strict=True) if not is_there] == []
 
 
 def test_the_recipe_of_drag_names_all_files_that_repeat_it():

@@ -37,7 +37,7 @@ FAILED, BROKEN, NONE = 1, 2, 5  # exit codes of pytest: a test failed, a module 
 QUIET = ["-q", "-s", "-p", "no:cacheprovider", "-p", "no:xdist", "--tb=line", "-W", "ignore::pytest.PytestWarning"]
 REMEMBERED = {  # what a process remembers of sources and compiled code, and how it forgets
     "compiler.tracer.fused": ("_copy", "cache_clear"),
-    "compiler.machine_code.store": ("_content", "cache_clear"),
+    "compiler.machine_code.store": ("content", "cache_clear"),
     "simulation.plan": ("LOOP_CODE", "clear"),
 }
 

@@ -1,4 +1,4 @@
-"""All tables of a mission with their keys, and the allowed values of each key in words.
+"""All tables of a mission with their keys, in words; a key is a field of a table in its part's file, in `parts/`.
 
 The tables are in the template's order, with those of every registered controller. The allowed values are read from the
 type of a key, which also covers the keys of a user's controller.

@@ -1,4 +1,4 @@
-"""The `Mission` with all its tables; the tables `[mission]` and `[[changes]]`.
+"""The `Mission`, which collects the tables of `parts/`; the tables `[mission]` and `[[changes]]`.
 
 Every table is strict: unknown keys, wrong types and non-finite numbers are refused. A key that is given per axis
 takes one number for all axes or one number each. The built-in missions in `data/missions` hold the numbers.

@@ -1,4 +1,4 @@
-"""Findings of a flight, from the memories of detectors, supervision and rotor-loss detection."""
+"""Findings of a flight, from memories of detectors, supervision and rotor-loss detection; kinds: `core.findings`."""
 
 from __future__ import annotations
 

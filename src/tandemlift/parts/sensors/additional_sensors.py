@@ -1,4 +1,7 @@
-"""Additional sensors: the description of each, and the law of its reading. Estimators read them by name."""
+"""Additional sensors: the description of each, and the law of its reading.
+
+An estimator, such as `parts.estimation.navigation`, reads them by name in `readings.additional`.
+"""
 
 from __future__ import annotations
 

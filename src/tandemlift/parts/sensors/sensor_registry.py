@@ -1,4 +1,4 @@
-"""Registration of additional sensors with the laws of their readings; `vehicle_sensors` describes them."""
+"""Registration of additional sensors with the laws of their readings; those of the package: `additional_sensors`."""
 
 from __future__ import annotations
 

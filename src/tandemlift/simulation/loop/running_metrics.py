@@ -1,4 +1,4 @@
-"""Running sums over all steps of a flight, from which its metrics are computed in constant memory."""
+"""Running sums over all steps of a flight, for its metrics; `flight.metric_descriptions` has units and meanings."""
 
 from __future__ import annotations
 
