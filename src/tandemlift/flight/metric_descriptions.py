@@ -1,7 +1,8 @@
 """The metrics of a flight: unit, components and meaning of each, and the missions that have it.
 
 This is the only list of metrics. Tables, reports and the reference of metrics are made from it. Numbers are SI, with
-the unit at the end of a name. `simulation.loop.running_metrics` computes them from every step, not from the log; for a bag from its samples.
+the unit at the end of a name. `simulation.loop.running_metrics` computes them from every step, not from the log; those
+of a bag come from its samples.
 "After 10 s" excludes a disturbed start. Errors are desired minus actual. A metric that cannot be computed is null.
 """
 
