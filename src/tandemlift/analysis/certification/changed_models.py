@@ -13,7 +13,13 @@ import numpy as np
 from tandemlift.analysis.certification.parameters import PARAMETERS, with_keys
 from tandemlift.analysis.linearization.linear_model import continuous
 from tandemlift.analysis.linearization.linearize import linearize
-from tandemlift.analysis.linearization.loop_margins import NO_KINK, ON_CIRCLE, calm_mission, is_calm
+from tandemlift.analysis.linearization.loop_margins import (
+    NO_KINK,
+    ON_CIRCLE,
+    calm_mission,
+    is_calm,
+    rotor_delay_and_lag,
+)
 from tandemlift.core.errors import InputError
 from tandemlift.missions import Mission
 
@@ -66,7 +72,7 @@ def linear_limit(mission: Mission, name: str, *, growing: bool, near: float | No
     """
     p, step = PARAMETERS[name], STEP if near is None else CLOSER
     nominal = p.nominal(mission)
-    calm, at = calm_mission(mission, lag=mission.hover.lag if mission.actuators.model == "rotors" else None)
+    calm, at = calm_mission(mission, lag=rotor_delay_and_lag(mission.hover)[1])
 
     def growth(value: float) -> complex | None:
         return fastest_growth(calm, at, p.keys(mission, value))

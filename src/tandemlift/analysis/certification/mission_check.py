@@ -84,7 +84,7 @@ def check(mission: MissionLike) -> tuple[CheckResult, ...]:
     limits = (*results, *delay_and_lag_limits(loop, delay, lag))
     if not is_stable(loop, delay, lag):
         return limits
-    calm, at = calm_mission(mission, lag=lag if mission.actuators.model == "rotors" else None)
+    calm, at = calm_mission(mission, lag=lag)
     closed = linearize(calm, at, kink_tolerance=NO_KINK).connected()
     return *limits, *margins(loop, delay, lag), *modes(modes_of(closed).modes)
 

@@ -88,7 +88,7 @@ def calm_mission(mission: Mission, *, lag: float | None = None, wait: float = 0.
 
     Args:
         mission: the original.
-        lag: of all rotors [s], with the mission's delay; None for rotors without delay and lag.
+        lag: of all rotors [s], with the delay of the mission's real rotors; None for rotors without delay and lag.
         wait: additional hover time until then [s].
     """
     t = {name: table for name, table in tables_of(mission).items() if name not in REMOVED}
@@ -97,7 +97,7 @@ def calm_mission(mission: Mission, *, lag: float | None = None, wait: float = 0.
     t["initial"] = {"position": place, "euler": [0.0, 0.0, start.euler[2] if by_hand else 0.0]}
     t["disturbance"] = {"force": [0.0, 0.0, mission.disturbance.force[2]]}
     t["ground"]["effect"] = False
-    t["actuators"] |= {"model": "rotors", "delay": 0.0 if lag is None else mission.actuators.delay}
+    t["actuators"] |= {"model": "rotors", "delay": 0.0 if lag is None else rotor_delay_and_lag(mission.hover)[0]}
     for q in t["vehicle"]["quadrotors"]:
         q |= {"lag_up": lag or 0.0, "lag_down": lag or 0.0, "max_speed": FASTER * q["max_speed"]}
     t["sensors"] |= {"errors": "none", "additional": []}
