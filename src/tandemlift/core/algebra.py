@@ -82,6 +82,11 @@ def primitive(name: str, scalar: Callable[..., Any], *, numpy: str = "", casadi:
     names = numpy or name, casadi or name, name
 
     def operation(*args: Any) -> Any:
+        for a in args:
+            if type(a) is not float:
+                break
+        else:
+            return scalar(*args)
         library = _library(args)
         if library is None:
             return scalar(*args)

@@ -13,6 +13,8 @@ import functools
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple, TypeVar, overload
 
+from tandemlift.core.types import new
+
 F = TypeVar("F", bound=Callable[..., Any])
 
 LAWS: list[Callable[..., Any]] = []
@@ -32,19 +34,18 @@ class Elementwise:
 
     def __call__(self, *args: Any) -> Any:
         """The scalar law, of every component if an argument is a vector."""
-        shape = None
-        for a in args:
-            if type(a) is not float and getattr(a, "componentwise", False):
-                shape = a
+        for shape in args:
+            if type(shape) is not float and getattr(shape, "componentwise", False):
                 break
         else:
             return self.scalar(*args)
-        rolled = next((a for a in args if getattr(a, "rolled", 0)), None)
-        if rolled is not None and getattr(type(shape), "is_set", False):  # of sets that are one symbol each
-            return self.scalar(*map(rolled.packed, args))
         kind = type(shape)
-        columns = [a if isinstance(a, kind) else (a,) * len(shape) for a in args]
-        return kind(*map(self.scalar, *columns))
+        if getattr(kind, "is_set", False):
+            for rolled in args:
+                if getattr(rolled, "rolled", 0):  # sets that are one symbol each
+                    return self.scalar(*map(rolled.packed, args))
+        columns = [a if type(a) is kind else (a,) * len(shape) for a in args]
+        return new(kind, map(self.scalar, *columns))
 
 
 class Absent(NamedTuple):

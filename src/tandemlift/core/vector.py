@@ -13,7 +13,7 @@ from typing import Any, Generic, NamedTuple, TypeGuard, TypeVar
 
 from tandemlift.core.law import Absent as Absent
 from tandemlift.core.law import law
-from tandemlift.core.types import Number, NumberSet, layout_and_numbers, number
+from tandemlift.core.types import Number, NumberSet, layout_and_numbers, new, number
 
 C = TypeVar("C", bound=type)
 T = TypeVar("T")
@@ -47,7 +47,7 @@ def componentwise(cls: C) -> C:
 
 def _by_fields(operation: Callable[[Any, Any], Any], a: Any, b: Any) -> Any:
     if type(a) is type(b):
-        return type(a)(*map(operation, a, b))
+        return new(type(a), map(operation, a, b))
     if is_rolled(b):  # a set that is one symbol handles a set of numbers
         return NotImplemented
     raise TypeError(f"cannot combine {type(a).__name__} with {type(b).__name__}")
@@ -65,23 +65,25 @@ def minus(a: V, b: V) -> V:
 
 def times(a: V, k: Any) -> V:
     """a scaled by a number, or, for vectors of one kind, the product component by component."""
+    if type(k) is float:  # by far most are
+        return new(type(a), [x * k for x in a])
     if isinstance(a, Quat) and isinstance(k, tuple):
         raise TypeError("a quaternion is only scaled by numbers; write hamilton(a, b) for the product")
     if isinstance(k, tuple) or (is_set(a) and is_rolled(k)):
         return _by_fields(operator.mul, a, k)
-    return type(a)(*[x * k for x in a])
+    return new(type(a), [x * k for x in a])
 
 
 def over(a: V, k: Any) -> V:
     """a divided by a number, or component by component."""
     if isinstance(k, tuple) or (is_set(a) and is_rolled(k)):
         return _by_fields(operator.truediv, a, k)
-    return type(a)(*[x / k for x in a])
+    return new(type(a), [x / k for x in a])
 
 
 def negative(a: V) -> V:
     """−a, field by field."""
-    return type(a)(*[-x for x in a])
+    return new(type(a), [-x for x in a])
 
 
 OPERATORS = {
