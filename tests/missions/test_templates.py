@@ -75,6 +75,21 @@ def test_a_template_flies_another_controller_with_the_settings_that_the_mission_
         assert template.mission(changes) == load_mission("paper", changes, controller=controller)
 
 
+@pytest.mark.parametrize("name", ["iris", "zigzag"])
+def test_a_template_of_a_mission_changes_it_without_its_changes_in_flight_and_does_not_warn(name):
+    template = MissionTemplate.of(load_mission(name, LATER))
+    for changes in (
+        {},
+        {"admittance.mass": 2.0},
+        {"plant.mass_scale": 1.1, "sensors.delay": 0.004},
+        {"plant.mass": 1.0},
+    ):
+        expected, _ = given_by(lambda c=changes: load_mission(name, c))
+        made, said = given_by(lambda c=changes: template.mission(c))
+        assert made == (expected.replace(name, "mission") if isinstance(expected, str) else expected)
+        assert not said
+
+
 def test_changes_do_not_reach_the_next_mission():
     weights = [1.0, 2.0, 2.0, 1.0]
     template = MissionTemplate.read("paper", {"allocation.weights": weights})

@@ -20,6 +20,7 @@ from tandemlift.missions.changes import (
     Tables,
     changed_tables,
     merge,
+    tables_of,
     value_at,
     without_entries,
     without_old_shape,
@@ -229,6 +230,12 @@ class MissionTemplate:
         """
         with _named(name):
             return cls(*read_tables(name, controller), changes, quiet=quiet)
+
+    @classmethod
+    def of(cls, mission: Mission) -> MissionTemplate:
+        """The template of a mission without its `[[changes]]`, which omits the warnings."""
+        tables = tables_of(mission.model_copy(update={"changes": ()}))
+        return cls(tables, [Layer("mission", tables)], quiet=True)
 
     def mission(self, changes: Mapping[str, Any]) -> Mission:
         """The mission that `load_mission` gives with the common changes and these.

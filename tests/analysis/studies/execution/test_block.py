@@ -179,6 +179,10 @@ REFUSED = [
     (lambda b: b.reset([0, 1], seed=[1]), "seed: 1 given, but 2 lanes are reset"),
     (lambda b: b.reset(seed=-1), "seed = -1: must be a whole number from 0"),
     (lambda b: b.reset(keys={"mission.step": 0.002}), "mission.step = 0.002: must be the same in all lanes, because"),
+    (
+        lambda b: b.reset(keys={"plant.mass_scale": 1.1, "mission.step": 0.002, "mission.seed": 3}),
+        "mission.step = 0.002",
+    ),
     (lambda b: b.reset(keys={"controller.name": "pid"}), 'controller.name = "pid": .* picks the laws of their steps'),
     (lambda b: b.reset(keys={"vehicle.payload.mass": -1.0}), "vehicle.payload.mass"),
     (lambda b: b.reset(keys={"vehicle.payload.mas": 1.0}), "mass"),

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.types import Array
-from tandemlift.missions import Mission, changed
+from tandemlift.missions import Mission, MissionTemplate
 from tandemlift.simulation.caller_values import checked_seed
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import FlightStart
@@ -37,7 +37,7 @@ class Lanes:
     def __init__(self, mission: Mission, count: int) -> None:
         self.first = FlightPlan(mission, interactive=True)
         _refuse_stepwise(self.first)
-        self.plans = [self.first] * count
+        self.plans, self._template = [self.first] * count, MissionTemplate.of(mission)
         self._seeds = [checked_seed(mission.mission.seed + lane) for lane in range(count)]
         self.starts = [_start(self.first, seed) for seed in self._seeds]
 
@@ -47,12 +47,12 @@ class Lanes:
         Raises:
             InputError: a changed mission is invalid, or cannot fly beside the others; all lanes are as before.
         """
-        plans = {id(own): self._plan_with(own) for own in keys if own is not None}
-        new = list[tuple[int, int, FlightPlan, FlightStart]]()
+        plans, new = dict[int, FlightPlan](), list[tuple[int, int, FlightPlan, FlightStart]]()
         for lane, seed, own in zip(lanes, seeds, keys, strict=True):
             if seed is not None or own is not None:
-                plan = self.plans[lane] if own is None else plans[id(own)]
-                seed = self._seeds[lane] if seed is None else seed
+                seed, plan = self._seeds[lane] if seed is None else seed, self.plans[lane]
+                if own is not None:
+                    plan = plans.get(id(own)) or plans.setdefault(id(own), self._plan_with(own, seed))
                 new.append((lane, seed, plan, _start(plan, seed)))
         for lane, seed, plan, start in new:
             self._seeds[lane], self.plans[lane], self.starts[lane] = seed, plan, start
@@ -63,12 +63,14 @@ class Lanes:
             self._seeds[lane] = other._seeds[place]
             self.plans[lane], self.starts[lane] = other.plans[place], other.starts[place]
 
-    def _plan_with(self, keys: Keys) -> FlightPlan:
-        plan = self.first
-        for key, value in keys.items():
-            plan = FlightPlan(changed(plan.mission, key, value), interactive=True)
-            if reason := _shared(self.first, plan):
-                raise InputError(f"{key} = {shown(value)}: must be the same in all lanes, because it {reason}")
+    def _plan_with(self, keys: Keys, seed: int) -> FlightPlan:
+        if not keys:
+            return self.first
+        plan = FlightPlan(self._template.mission({**keys, "mission.seed": seed}), interactive=True)
+        if reason := _shared(self.first, plan):
+            *others, (key, value) = keys.items()
+            self._plan_with(dict(others), seed)  # refuses the first one at fault
+            raise InputError(f"{key} = {shown(value)}: must be the same in all lanes, because it {reason}")
         return plan
 
 
