@@ -177,6 +177,17 @@ def test_metrics_are_those_of_the_flights():
         assert list(map(without_time, metrics)) == [without_time(flight.metrics()) for flight in flights]
 
 
+def test_the_refusal_of_a_mission_that_could_not_be_made_keeps_its_place():
+    one, two = hovers(1.0, 1.01)
+    refusal = tl.InputError("no mission")
+    for engine in ("compiled", "mujoco"):
+        flown = fly_each(iter([one, refusal, two]), engine, refusals=True)
+        assert flown[1] is refusal
+        assert without_time(flown[2]) == without_time(tl.fly(two, engine).metrics())
+        with pytest.raises(tl.InputError, match="no mission"):
+            fly_each([one, refusal], engine)
+
+
 def test_in_mujoco_too_a_mission_that_cannot_be_built_is_told_by_its_place_and_the_others_fly(heavy):
     one, two = hovers(1.0, 1.01)
     with pytest.raises(tl.InputError):

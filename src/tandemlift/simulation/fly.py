@@ -111,7 +111,7 @@ def fly(mission: MissionLike, engine: str | None = None, *, progress: Progress |
 
 
 def fly_many(
-    missions: Iterable[MissionLike],
+    missions: Iterable[MissionLike | InputError],
     keep: Literal["flights", "metrics"] = "flights",
     threads: int | None = None,
     *,
@@ -121,8 +121,8 @@ def fly_many(
     """Fly many missions of any mixture of variants, in blocks that share each instruction, on several threads.
 
     Args:
-        missions: from `load_mission`, or their names or paths; an iterator is read during the flights, one mission
-            after the other.
+        missions: from `load_mission`, or their names or paths, or the refusal of one that could not be made; an
+            iterator is read during the flights, one mission after the other.
         keep: "flights" for a list of `Flight`; "metrics" for a list of metrics only, in memory that does not grow with
             the number of steps.
         threads: number of threads; by default one for each processor.
@@ -214,7 +214,7 @@ class _FlightGroups:
     """
 
     def __init__(
-        self, missions: Iterable[MissionLike], refusals: bool = False, progress: Progress | None = None
+        self, missions: Iterable[MissionLike | InputError], refusals: bool = False, progress: Progress | None = None
     ) -> None:
         self.read, self.refusals = 0, refusals
         self._finished, self._total = 0, len(missions) if isinstance(missions, Sized) else None
@@ -245,15 +245,17 @@ class _FlightGroups:
                 raise
             return [error] * len(group.flights)
 
-    def _plan(self, mission: MissionLike) -> FlightPlan | InputError:
+    def _plan(self, mission: MissionLike | InputError) -> FlightPlan | InputError:
         try:
+            if isinstance(mission, InputError):
+                raise mission
             return FlightPlan(mission_of(mission))
         except InputError as error:
             if not self.refusals:
                 raise
             return error
 
-    def _grouped(self, missions: Iterable[MissionLike]) -> Iterator[_FlightGroup]:
+    def _grouped(self, missions: Iterable[MissionLike | InputError]) -> Iterator[_FlightGroup]:
         """Groups of flights of one variant and grid, at most LANES; stepwise flights alone.
 
         A block takes as long as if what happens in a lane happened in all, so flights wait for others of their regime.

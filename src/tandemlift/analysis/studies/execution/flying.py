@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any, Literal
 
 from tandemlift.analysis.studies.design.plan import StudyRow
@@ -21,7 +21,7 @@ Keep = Literal["flights", "metrics"]
 
 
 def fly_each(
-    missions: Iterable[Mission],
+    missions: Iterable[Mission | InputError],
     engine: str | Sequence[str] = "compiled",
     *,
     keep: Keep = "metrics",
@@ -33,7 +33,8 @@ def fly_each(
     """Fly missions: those of the compiled engine in blocks on several threads, those of other engines one by one.
 
     Args:
-        missions: from `load_mission`; with one engine also an iterator, as for `fly_many`.
+        missions: from `load_mission`, or the refusal of one that could not be made; with one engine also an iterator,
+            as for `fly_many`.
         engine: name of the engine, or one name for each mission.
         keep: "flights" for a `Flight` of each; "metrics" for its metrics.
         threads: for blocks; by default one for each processor.
@@ -49,7 +50,7 @@ def fly_each(
         InputError: an engine is unknown, or a mission cannot be built and `refusals` is false.
     """
 
-    def flown(name: str, missions: Iterable[Mission], progress: Progress | None) -> list[Any]:
+    def flown(name: str, missions: Iterable[Mission | InputError], progress: Progress | None) -> list[Any]:
         if engine_named(name).load is None:
             return fly_many(missions, keep, threads, refusals=refusals, progress=progress)
         return _one_by_one(name, list(missions), keep, refusals, interrupted, progress)
@@ -73,7 +74,7 @@ def fly_each(
 
 def _one_by_one(
     engine: str,
-    missions: Sequence[Mission],
+    missions: Sequence[Mission | InputError],
     keep: Keep,
     refusals: bool,
     interrupted: bool,
@@ -83,6 +84,8 @@ def _one_by_one(
     results = list[Any]()
     for mission in missions:
         try:
+            if isinstance(mission, InputError):
+                raise mission
             flight = fly(mission, engine)
             if flight.outcome == INTERRUPTED and not interrupted:
                 raise EngineLost(flight.failure)
@@ -103,23 +106,24 @@ def fly_chunk(chunk: Chunk) -> Columns:
         The columns of its table, by name.
     """
     templates = {i: variant.template() for i, variant in chunk.variants.items()}
-    missions = [_mission_or_refusal(templates[row.variant], row) for row in chunk.rows]
 
-    def flown(places: Sequence[int], keep: Keep) -> Iterator[tuple[int, Any]]:
-        """Places of rows, with their flights or metrics, or refusals; bit-identical when repeated."""
-        engines = [chunk.variants[chunk.rows[i].variant].engine for i in places]
-        found = fly_each([missions[i] for i in places], engines, keep=keep, threads=1, refusals=True)
-        return zip(places, found, strict=True)
+    def flown(rows: Sequence[StudyRow], keep: Keep) -> dict[int, Any]:
+        """Flights or metrics of rows, or refusals, by their numbers; bit-identical when repeated."""
+        found = dict[int, Any]()
+        for engine in dict.fromkeys(variant.engine for variant in chunk.variants.values()):
+            own = [row for row in rows if chunk.variants[row.variant].engine == engine]
+            # made one by one in flight, so that each is assembled while what its checks found out is still cached
+            missions = (_mission_or_refusal(templates[row.variant], row) for row in own)
+            results = fly_each(missions, engine, keep=keep, threads=1, refusals=True)
+            found |= {row.number: result for row, result in zip(own, results, strict=True)}
+        return found
 
-    results: list[Any] = list(missions)
-    for i, metrics in flown([i for i, one in enumerate(missions) if isinstance(one, Mission)], "metrics"):
-        results[i] = metrics
-    kept = [i for i, result in enumerate(results) if _is_kept(chunk.rows[i].number, result, chunk.keep)]
-    flights = {chunk.rows[i].number: flight for i, flight in flown(kept, "flights")}
-    return columns_of_rows(chunk, results, flights)
+    results = flown(chunk.rows, "metrics")
+    kept = [row for row in chunk.rows if _is_kept(row.number, results[row.number], chunk.keep)]
+    return columns_of_rows(chunk, [results[row.number] for row in chunk.rows], flown(kept, "flights"))
 
 
-def _mission_or_refusal(template: MissionTemplate, row: StudyRow) -> Any:
+def _mission_or_refusal(template: MissionTemplate, row: StudyRow) -> Mission | InputError:
     try:
         return template.mission(row.changes)
     except InputError as error:
