@@ -1,7 +1,7 @@
 """Cost of a study by its place: `python benchmarks/study_scaling.py overhead` and others. Prints Markdown.
 
-- `overhead`: a study of `paper` against `fly_many` with the same missions loaded, on one and two threads, in turns;
-  what each part of a chunk takes; bytes of a row.
+- `overhead`: a study of `paper` against `fly_many` with the same missions loaded, on one and two threads, in turns,
+  and in two processes; what each part of a chunk takes; bytes of a row.
 - `kills`: a study is killed by SIGKILL at 50 random moments, each time resumed; only chunks in work fly again.
 - `processes`: two processes on one folder.
 - `disk`: a disk of 1 MB that gets full, and a read-only one (needs root: it mounts them).
@@ -36,6 +36,7 @@ from tandemlift.analysis.studies.execution.chunk_scheduling import fly_study
 from tandemlift.analysis.studies.execution.columns import write_columns
 from tandemlift.analysis.studies.execution.flying import fly_chunk
 from tandemlift.analysis.studies.execution.store import ChunkFiles, StudyFolder, open_folder
+from tandemlift.analysis.studies.execution.workers import worker_processes
 from tandemlift.core.errors import InputError
 
 PACKAGES = ("tandemlift", "numpy", "llvmlite", "pyarrow")
@@ -92,6 +93,7 @@ def overhead(rounds: int, root: Path) -> dict[str, Any]:
             cells = [median(t[which][kind] for t in turns) * 1e3 / plan.count for kind in (0, 1) for which in (0, 1)]
             ratios = [median(t[1][kind] / t[0][kind] for t in turns) for kind in (0, 1)]
             rows.append([f"`{name}`", str(threads), *map(number, cells), *map(number, ratios)])
+        results[f"{name}, processes"] = in_processes(name, duration, rounds, root)
         results[f"parts of {name}"] = parts(plan, root / f"{name}.parquet")
     header = (
         "mission",
@@ -105,6 +107,18 @@ def overhead(rounds: int, root: Path) -> dict[str, Any]:
     )
     print("\nMilliseconds a flight:\n", table(header, rows, texts=2), sep="\n")
     return results
+
+
+def in_processes(name: str, duration: float | None, rounds: int, root: Path) -> list[float]:
+    """Times [s] of studies of 4,096 rows in two processes that have started and flown before; prints their median."""
+    with worker_processes(2) as executor:
+        flown(study_of(name, 1024, duration), root / f"{name}-processes", executor=executor)
+        tables = study_of(name, 4096, duration)
+        turns = [
+            seconds(lambda i=i: flown(tables, root / f"{name}-processes-{i}", executor=executor)) for i in range(rounds)
+        ]
+    print(f"\n{name}, two processes: {median(turns) * 1e3 / 4096:.3g} ms a flight")
+    return turns
 
 
 def parts(plan: StudyPlan, file: Path) -> dict[str, float]:

@@ -1,6 +1,7 @@
 """`tandemlift study`: what is printed of rows that cannot be flown, and what is refused before any is."""
 
 import sys
+from contextlib import nullcontext
 
 import pytest
 from click.testing import CliRunner
@@ -55,6 +56,35 @@ def test_a_controller_all_of_whose_rows_are_refused_is_named_with_the_reason_and
     assert (tmp_path / "out" / "weights" / "report.html").is_file()
 
 
+@pytest.mark.parametrize(
+    ("draws", "options", "expected"),
+    [
+        (16, (), 2),
+        (15, (), None),
+        (16, ("--part", "1/2"), None),
+        (16, ("--threads", "1"), None),
+        (3, ("--processes", "3"), 3),
+    ],
+)
+def test_processes_fly_a_study_unless_they_would_start_for_less_than_two_chunks_each(
+    draws, options, expected, tmp_path, monkeypatch
+):
+    started = []
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("os.cpu_count", lambda: 2)
+    monkeypatch.setattr(
+        "tandemlift.analysis.studies.execution.workers.worker_processes",
+        lambda count: started.append(count) or nullcontext(),
+    )
+    (tmp_path / "one.toml").write_text(
+        '[study]\nname = "one"\nmissions = ["hover"]\nrows_per_chunk = 4\n[set]\nmission.duration = 0.1\n', "utf-8"
+    )
+    words = ["study", "one.toml", "--no-report", "--set", f"study.draws={draws}", *options]
+    done = CliRunner().invoke(cli, words, catch_exceptions=False)
+    assert done.exit_code == 0, done.output
+    assert started == ([] if expected is None else [expected])
+
+
 @pytest.mark.parametrize("dry", [(), ("--dry-run",)])
 @pytest.mark.parametrize(
     ("words", "why"),
@@ -66,6 +96,7 @@ def test_a_controller_all_of_whose_rows_are_refused_is_named_with_the_reason_and
         ),
         (("--for", "human_work_j", "--no-report"), "--for human_work_j: leave out --no-report"),
         (("--part", "9/3"), "part = '9/3': must be K/N"),
+        (("--processes", "2", "--threads", "2"), "--processes, --threads: give only one of them"),
         ((), "a study needs pyarrow: pip install"),
     ],
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
     from tandemlift.analysis.studies.execution.chunk_scheduling import StudyPart
 
 
+CHUNKS = 2  # for each process; fewer are flown by threads before the processes have started
+
+
 @click.command()
 @click.argument("file", required=False, shell_complete=names(files=[".toml"]))
 @click.option("--out", metavar="DIR", help="Folder of the study.  [default: out/NAME]")
@@ -33,7 +37,12 @@ if TYPE_CHECKING:
     metavar="KEY=VALUE",
     help="Set one key of the study file, such as study.draws=1000. Can be repeated.",
 )
-@click.option("--threads", type=click.IntRange(min=1), help="Threads.  [default: one for each processor]")
+@click.option(
+    "--processes",
+    type=click.IntRange(min=1),
+    help="Processes that fly.  [default: one for each processor, if each has two chunks to fly]",
+)
+@click.option("--threads", type=click.IntRange(min=1), help="Threads that fly, in place of processes.")
 @click.option("--part", default="1/1", metavar="K/N", help="Fly part K of N only, as in a job array.")
 @click.option(
     "--for",
@@ -50,6 +59,7 @@ def study(
     file: str | None,
     out: str | None,
     settings: tuple[str, ...],
+    processes: int | None,
     threads: int | None,
     part: str,
     metrics: tuple[str, ...],
@@ -85,6 +95,8 @@ def study(
         raise click.UsageError("Missing argument 'FILE': a study file; `tandemlift study --template` prints one.")
     if metrics and no_report:
         raise InputError(f"--for {metrics[0]}: leave out --no-report, or there is no report to show it")
+    if processes and threads:
+        raise InputError("--processes, --threads: give only one of them")
     from tandemlift.analysis.studies.design.study_files import load_plan
     from tandemlift.analysis.studies.execution.chunk_scheduling import part_from
     from tandemlift.analysis.studies.execution.store import check_names
@@ -98,22 +110,36 @@ def study(
 
         with compile_notices.together():
             expected = estimate(plan)
-        echo(*(f"  {line}" for line in expected.lines(threads or os.cpu_count() or 1)))
+        echo(*(f"  {line}" for line in expected.lines(processes or threads or os.cpu_count() or 1)))
         return
-    _fly(plan, out, chosen, threads, metrics, report=not no_report)
+    _fly(plan, out, chosen, processes, threads, metrics, report=not no_report)
 
 
 def _fly(
-    plan: StudyPlan, out: str | None, part: StudyPart, threads: int | None, metrics: tuple[str, ...], *, report: bool
+    plan: StudyPlan,
+    out: str | None,
+    part: StudyPart,
+    processes: int | None,
+    threads: int | None,
+    metrics: tuple[str, ...],
+    *,
+    report: bool,
 ) -> None:
     """Fly a part; print the outcomes and the place of the table; write the report of a whole study."""
     from tandemlift.analysis.studies.execution.chunk_scheduling import fly_study
     from tandemlift.analysis.studies.execution.store import open_folder
+    from tandemlift.analysis.studies.execution.workers import worker_processes
     from tandemlift.analysis.studies.table import load_study, outcome_lines
 
     folder = open_folder(plan, Path("out") / plan.settings.study.name if out is None else Path(out))
-    with progress_bar(plan.settings.study.name, "rows") as progress:
-        fly_study(plan, folder, threads=threads, part=part, progress=progress, say=partial(click.echo, err=True))
+    if not (processes or threads):
+        processors, chunks = os.cpu_count() or 1, plan.count / plan.rows_per_chunk / part.parts
+        processes = processors if 1 < processors <= chunks / CHUNKS else None
+    say, name = partial(click.echo, err=True), plan.settings.study.name
+    in_processes = worker_processes(processes) if processes else nullcontext()
+    with in_processes as executor, progress_bar(name, "rows") as progress:
+        threads = processes or threads
+        fly_study(plan, folder, threads=threads, executor=executor, part=part, progress=progress, say=say)
     study = load_study(folder.path)
     echo(*(f"  {line}" for line in outcome_lines(study)))
     if report and not study.missing:

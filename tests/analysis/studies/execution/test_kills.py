@@ -1,11 +1,12 @@
 """A study that is killed, stopped, or flown by several processes, threads or executors gives the same rows."""
 
-import multiprocessing
 import os
 import random
 import signal
+import subprocess
+import sys
 import time
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 from patience import PATIENCE, ended, said
@@ -13,7 +14,7 @@ from study_runs import LONGER, TWELVE, assert_same_rows, files_of, fly, started
 
 from tandemlift.analysis.studies.execution.chunk import sources_digest
 from tandemlift.analysis.studies.execution.chunk_scheduling import WAITING
-from tandemlift.analysis.studies.execution.workers import fly_packed
+from tandemlift.analysis.studies.execution.workers import fly_packed, worker_processes
 from tandemlift.core.errors import InputError
 
 SEED = 17
@@ -60,12 +61,28 @@ def test_an_interrupt_leaves_what_is_done_and_no_claim(whole, tmp_path):
     assert_same_rows(whole, tmp_path)
 
 
-def spawned(count):
-    return ProcessPoolExecutor(count, mp_context=multiprocessing.get_context("spawn"))
+WORKERS = """
+import time
+from tandemlift.analysis.studies.execution.workers import worker_processes
+
+if __name__ == "__main__":
+    with worker_processes(2) as pool:
+        print([pool.submit(time.sleep, 0.1).result() for _ in range(2)], flush=True)
+        [pool.submit(time.sleep, 1e4) for _ in range(2)][0].result()
+"""
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+def test_worker_processes_end_with_the_process_that_started_them(number):
+    process = subprocess.Popen(
+        [sys.executable, "-c", WORKERS], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    said(process, "None, None")
+    assert ended(process, number) != 0, "returns when nobody holds its output any more, workers included"
 
 
 def test_processes_and_threads_of_any_executor_give_the_same_rows(flown_twelve, tmp_path):
-    with spawned(2) as processes:
+    with worker_processes(2) as processes:
         assert fly(TWELVE, tmp_path / "processes", executor=processes) == 12
     with ThreadPoolExecutor(3) as threads:
         assert fly(TWELVE, tmp_path / "threads", executor=threads, threads=2) == 12
@@ -74,7 +91,7 @@ def test_processes_and_threads_of_any_executor_give_the_same_rows(flown_twelve, 
 
 
 def test_an_executor_whose_process_is_killed_is_refused_and_the_rest_stays(tmp_path):
-    with spawned(1) as processes:
+    with worker_processes(1) as processes:
         pid = processes.submit(os.getpid).result()
         with pytest.raises(InputError, match=r"^the executor has ended: .*Finished rows are kept"):
             fly(LONGER, tmp_path, executor=processes, progress=lambda done, _: done and os.kill(pid, signal.SIGKILL))

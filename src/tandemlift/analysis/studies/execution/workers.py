@@ -1,4 +1,4 @@
-"""Workers that fly the chunks of a study: threads of this process, or an executor, as of `concurrent.futures` or Dask.
+"""Workers that fly the chunks of a study: threads or processes, or an executor, as of `concurrent.futures` or Dask.
 
 Another process receives a chunk as bytes, together with the digest of its sources, and compares that digest before it
 unpacks them. It needs this package alone: no file of the study, and no package that reads or writes its table.
@@ -6,11 +6,14 @@ unpacks them. It needs this package alone: no file of the study, and no package 
 
 from __future__ import annotations
 
+import multiprocessing
 import os
 import pickle
 import platform
+import signal
+import threading
 from collections.abc import Callable, Iterator
-from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
+from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import contextmanager
 from typing import Any, TypeAlias
 
@@ -100,6 +103,34 @@ def fly_packed(sources: str, task: bytes) -> bytes:
             f"study those with digest {sources}; install the same version on both. Finished rows are kept"
         )
     return pickle.dumps(pickle.loads(task)())
+
+
+@contextmanager
+def worker_processes(count: int) -> Iterator[Executor]:
+    """Processes of this machine as an executor; they share no lock of Python's, and end with this process."""
+    others = multiprocessing.active_children()
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # theirs: each flies on one thread
+    with ProcessPoolExecutor(count, multiprocessing.get_context("spawn"), _end_with_parent) as pool:
+        try:
+            yield pool
+        except BaseException:  # also Ctrl-C: do not wait for their chunks
+            for process in multiprocessing.active_children():
+                if process not in others:
+                    process.terminate()
+            raise
+
+
+def _end_with_parent() -> None:
+    """Leave Ctrl-C to the process that started this one, and end when that one does, however it ends."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+
+    def end() -> None:
+        parent.join()
+        os._exit(1)
+
+    threading.Thread(target=end, daemon=True).start()
 
 
 @contextmanager
