@@ -72,8 +72,7 @@ def check(
                     f"changes.{i}.time = {c.time}: must not be before the change above it, at {before:g} s"
                 )
             try:
-                with without_flight_warnings():
-                    later, before = changed(later, c.key, c.value), c.time
+                later, before = changed(later, c.key, c.value), c.time
             except InputError as error:
                 raise InputError(f"changes.{i}: {error}") from None
     except InputError as error:
@@ -117,12 +116,14 @@ def _is_registered(table: ControllerTable) -> bool:
 
 
 def changed(mission: Mission, key: str, value: Any) -> Mission:
-    """A mission with one key changed and without `[[changes]]`.
+    """A mission with one key changed and without `[[changes]]`; it omits the warnings, which the first one has given.
 
     Raises:
         InputError: the changed mission is invalid.
     """
-    return check(changed_tables(tables_of(mission.model_copy(update={"changes": ()})), key, value, "mission"))
+    with without_flight_warnings():
+        tables = changed_tables(tables_of(mission.model_copy(update={"changes": ()})), key, value, "mission")
+        return check(tables, quiet=True)
 
 
 def _refuse(problems: list[Problem], tables: Tables, source: str, layers: Sequence[Layer]) -> None:

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.core.errors import InputError, without_flight_warnings
+from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array, flat, leaves
 from tandemlift.core.vector import Absent, layout
 from tandemlift.missions import changed
@@ -41,9 +41,7 @@ def scheduled_change(before: FlightPlan, key: str, value: Any, first: int, durat
     Raises:
         InputError: the changed mission is invalid, or the key cannot be changed in flight.
     """
-    with without_flight_warnings():
-        mission = changed(before.mission, key, value)
-    after = FlightPlan(mission, before.engine, interactive=before.interactive)
+    after = FlightPlan(changed(before.mission, key, value), before.engine, interactive=before.interactive)
     _check(before, after, key)
     return ScheduledChange(first, max(1, round(duration / before.dt)), after)
 

@@ -70,8 +70,7 @@ class FlightSnapshot:
 
     def alone(self) -> Flight:
         """The flight by itself, with a mission of the same length that has neither hand nor changes."""
-        with without_flight_warnings():
-            p = FlightPlan(changed(self.start, "mission.duration", self.flown.step * self.start.mission.step))
+        p = FlightPlan(changed(self.start, "mission.duration", self.flown.step * self.start.mission.step))
         return flight_of(p, self.flown, self.engine)
 
     def _toml(self, name: str) -> str:

@@ -6,7 +6,7 @@ from contextlib import suppress
 from typing import Any
 
 from tandemlift.apps.live.session.page_messages import FlyMessage
-from tandemlift.core.errors import InputError, unknown, without_flight_warnings
+from tandemlift.core.errors import InputError, unknown
 from tandemlift.missions import Mission, built_in, changed, load_mission, mission_from_text
 
 MAX_DURATION = 3600.0  # s
@@ -29,17 +29,16 @@ def interactive_mission(mission: Mission) -> Mission:
     Where the mission allows it, it also gets a wind, rotors that can fail, rotor-failure detection and supervision.
     """
     hand = SPRING if mission.person.model != "virtual-hand" else {}
-    with without_flight_warnings():  # rotors that may fail raise warnings of their own
-        for key, value in {"person": {**hand, "recording": None}, **ALWAYS}.items():
+    for key, value in {"person": {**hand, "recording": None}, **ALWAYS}.items():
+        mission = changed(mission, key, value)
+    failing = {(f.quadrotor, f.rotor) for f in mission.faults}
+    rotors = [(q + 1, r + 1) for q in range(len(mission.vehicle.quadrotors)) for r in range(4)]
+    faults = [{"quadrotor": q, "rotor": r, "time": NEVER} for q, r in rotors if (q, r) not in failing]
+    kept = [f.model_dump(mode="json", exclude_none=True) for f in mission.faults]
+    wind = {"wind": FAINT_WIND} if mission.wind.model == "none" else {}
+    for key, value in {"faults": [*kept, *faults], **WHERE_POSSIBLE, **wind}.items():
+        with suppress(InputError):
             mission = changed(mission, key, value)
-        failing = {(f.quadrotor, f.rotor) for f in mission.faults}
-        rotors = [(q + 1, r + 1) for q in range(len(mission.vehicle.quadrotors)) for r in range(4)]
-        faults = [{"quadrotor": q, "rotor": r, "time": NEVER} for q, r in rotors if (q, r) not in failing]
-        kept = [f.model_dump(mode="json", exclude_none=True) for f in mission.faults]
-        wind = {"wind": FAINT_WIND} if mission.wind.model == "none" else {}
-        for key, value in {"faults": [*kept, *faults], **WHERE_POSSIBLE, **wind}.items():
-            with suppress(InputError):
-                mission = changed(mission, key, value)
     return mission
 
 
