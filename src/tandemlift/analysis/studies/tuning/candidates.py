@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import itertools
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -120,11 +121,15 @@ def fly_candidates(
     source: MissionSource, candidates: Sequence[Changes], draws: Sequence[Draw], threads: int | None = None
 ) -> list[Trial]:
     """Fly every candidate on every draw, all at once, so that blocks of flights fill."""
-    rows = [_loaded(source, draw.changes, candidate) for candidate in candidates for draw in draws]
-    missions = [row for row in rows if isinstance(row, Mission)]
-    flown = iter(fly_many(missions, keep="metrics", threads=threads, refusals=True))
-    results = [(row, row if isinstance(row, InputError) else next(flown)) for row in rows]
-    count = len(draws)
+    rows = list[Mission | InputError]()
+
+    def missions() -> Iterator[Mission | InputError]:  # made in flight: see `fly_chunk`
+        for candidate, draw in itertools.product(candidates, draws):
+            rows.append(_loaded(source, draw.changes, candidate))
+            yield rows[-1]
+
+    flown = fly_many(missions(), keep="metrics", threads=threads, refusals=True)
+    results, count = list(zip(rows, flown, strict=True)), len(draws)
     return [_trial(results[i * count : (i + 1) * count]) for i in range(len(candidates))]
 
 
