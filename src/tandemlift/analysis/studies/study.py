@@ -5,12 +5,14 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from concurrent.futures import Executor
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution.chunk_scheduling import fly_study, part_from
 from tandemlift.analysis.studies.execution.store import StudyFolder, open_folder
+from tandemlift.analysis.studies.execution.workers import worker_processes
 from tandemlift.analysis.studies.table import Study, load_study
 from tandemlift.core.errors import InputError
 from tandemlift.core.progress import progress_or_own
@@ -23,6 +25,7 @@ def study(
     out: str | os.PathLike[str] | None = None,
     *,
     threads: int | None = None,
+    processes: int | None = None,
     executor: Executor | None = None,
     part: str = "1/1",
     progress: Progress | None = None,
@@ -33,6 +36,8 @@ def study(
         study: path of a study file, or its tables.
         out: folder of the study; by default out/NAME.
         threads: number of threads; by default one for each processor.
+        processes: number of processes in place of threads; a script that asks for them has its own statements under
+            `if __name__ == "__main__":`, as each of them imports it.
         executor: flies the chunks in place of threads of this process; `threads` is then the number of its workers.
         part: "K/N" to fly part K of N only; the parts may run at the same time, on machines that share the folder.
         progress: called with (rows flown, rows in all); by default, a notebook shows a bar.
@@ -41,13 +46,17 @@ def study(
         The study, with its table and the mission of each row.
 
     Raises:
-        InputError: the study cannot be flown, the folder is that of another study, or it cannot be written to.
+        InputError: processes are given beside threads or an executor, the study cannot be flown, the folder is that of
+            another study, or it cannot be written to.
     """
-    plan = load_plan(study)
-    folder = open_folder(plan, Path("out") / plan.settings.study.name if out is None else Path(out))
-    chosen = part_from(part)
-    with progress_or_own(plan.settings.study.name, progress) as shown:
-        fly_study(plan, folder, threads=threads, executor=executor, part=chosen, progress=shown, say=print)
+    if processes is not None and (threads is not None or executor is not None):
+        raise InputError(f"processes = {processes}: leave out threads and executor")
+    with nullcontext(executor) if processes is None else worker_processes(processes) as workers:
+        plan = load_plan(study)
+        folder = open_folder(plan, Path("out") / plan.settings.study.name if out is None else Path(out))
+        chosen, count = part_from(part), processes or threads
+        with progress_or_own(plan.settings.study.name, progress) as shown:
+            fly_study(plan, folder, threads=count, executor=workers, part=chosen, progress=shown, say=print)
     return load_study(folder.path)
 
 

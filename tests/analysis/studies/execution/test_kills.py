@@ -12,6 +12,7 @@ import pytest
 from patience import PATIENCE, ended, said
 from study_runs import LONGER, TWELVE, assert_same_rows, files_of, fly, started
 
+import tandemlift as tl
 from tandemlift.analysis.studies.execution.chunk import sources_digest
 from tandemlift.analysis.studies.execution.chunk_scheduling import WAITING
 from tandemlift.analysis.studies.execution.workers import fly_packed, worker_processes
@@ -88,6 +89,15 @@ def test_processes_and_threads_of_any_executor_give_the_same_rows(flown_twelve, 
         assert fly(TWELVE, tmp_path / "threads", executor=threads, threads=2) == 12
     assert_same_rows(flown_twelve, tmp_path / "processes")
     assert_same_rows(flown_twelve, tmp_path / "threads")
+
+
+def test_a_study_in_processes_has_the_same_rows(flown_twelve, tmp_path):
+    assert tl.study(TWELVE, tmp_path, processes=2).missing == 0
+    assert_same_rows(flown_twelve, tmp_path)
+    for where, words in [({"processes": 0}, "processes = 0: must be"), ({"processes": 2, "threads": 1}, "leave out")]:
+        with pytest.raises(InputError, match=words):
+            tl.study(TWELVE, tmp_path / "none", **where)
+    assert not (tmp_path / "none").exists()
 
 
 def test_an_executor_whose_process_is_killed_is_refused_and_the_rest_stays(tmp_path):

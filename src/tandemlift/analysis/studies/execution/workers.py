@@ -20,6 +20,7 @@ from typing import Any, TypeAlias
 from tandemlift.analysis.studies.execution.chunk import sources_digest
 from tandemlift.analysis.studies.execution.columns import Columns
 from tandemlift.core.errors import InputError
+from tandemlift.simulation.caller_values import count_of
 
 Task: TypeAlias = Callable[[], Columns]
 """A function that flies a chunk; it can be pickled."""
@@ -107,7 +108,12 @@ def fly_packed(sources: str, task: bytes) -> bytes:
 
 @contextmanager
 def worker_processes(count: int) -> Iterator[Executor]:
-    """Processes of this machine as an executor; they share no lock of Python's, and end with this process."""
+    """Processes of this machine as an executor; they share no lock of Python's, and end with this process.
+
+    Raises:
+        InputError: their number is not a whole number of at least 1.
+    """
+    count_of("processes", count)
     others = multiprocessing.active_children()
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # theirs: each flies on one thread
     with ProcessPoolExecutor(count, multiprocessing.get_context("spawn"), _end_with_parent) as pool:
