@@ -19,6 +19,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 LAWS: list[Callable[..., Any]] = []
 STAIRCASES: list[Callable[..., Any]] = []  # laws that round, with the derivative of a straight line
+REPLACED: list[tuple[type, Callable[..., Any]]] = []  # classes with laws registered later, or by another package
 
 
 class Elementwise:
@@ -99,11 +100,17 @@ class Choice:
         """Register a law for first arguments of type `kind`; `compiled=False` for any Python function instead."""
 
         def keep(function: F) -> F:
+            if kind in self.table or _package(kind) != _package(function):
+                REPLACED.append((kind, function))
             self.table[kind] = law(function) if compiled else function
             self.interpreted.discard(kind) if compiled else self.interpreted.add(kind)
             return function
 
         return keep
+
+
+def _package(made: Any) -> str:
+    return str(getattr(made, "__module__", "")).partition(".")[0]
 
 
 REQUIRED = object()

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from tandemlift.core.caching import LastUsed
+from tandemlift.core.law import REPLACED
 from tandemlift.core.types import layout_and_numbers
 from tandemlift.core.vector import ZERO, each, layout
 from tandemlift.engines.registry import engine_named
@@ -108,7 +109,8 @@ class FlightPlan:
     @cached_property
     def loop_code(self) -> LoopCode:
         """The compiled loops of this variant."""
-        return LOOP_CODE.of(self.variant, lambda: LoopCode(self.model, self.given, fuses=self.mission.mission.fma))
+        key = self.variant, len(REPLACED)
+        return LOOP_CODE.of(key, lambda: LoopCode(self.model, self.given, fuses=self.mission.mission.fma))
 
     def start(self) -> FlightStart:
         """The flight at its first step, as input of a compiled loop."""

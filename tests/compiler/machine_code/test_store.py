@@ -21,8 +21,11 @@ from patience import PATIENCE
 
 import tandemlift as tl
 from tandemlift.compiler.machine_code import machine, store
+from tandemlift.core import law
 from tandemlift.core.caching import LastUsed
+from tandemlift.parts.controllers import control
 from tandemlift.simulation import plan
+from tandemlift.simulation.pilot_api import pilot_at_start
 
 CHANGES = {"mission.duration": 0.5}
 FLY = """
@@ -85,6 +88,30 @@ def check_entries(cache):
         assert re.fullmatch(r"[0-9a-f]+-(quick|best|text|module)\.o", file.name)
         assert store.read(file.stem) is not None
     return [file for file in files if not file.stem.endswith(("-text", "-module"))]
+
+
+def test_a_law_in_place_of_the_packages_own_flies_at_once_and_leaves_no_code_under_its_name(cache, right, monkeypatch):
+    mission = tl.load_mission("one-push", CHANGES)
+    started = pilot_at_start(mission).parameters.controller
+    own = control.table[type(started)]
+
+    def half_the_thrust(gains, memory, measured, reference):
+        command, after = own(gains, memory, measured, reference)
+        return command._replace(wrench=command.wrench._replace(thrust=command.wrench.thrust * 0.5)), after
+
+    monkeypatch.setitem(control.table, type(started), own)
+    monkeypatch.setattr(plan, "LOOP_CODE", LastUsed(8))
+    for filled in (False, True):
+        if filled:
+            assert tl.fly(mission)["position"][-1, 2] > -1e-6
+        try:
+            control.register(type(started))(half_the_thrust)
+            assert store.key_of(started) == ""
+            assert tl.fly(mission)["position"][-1, 2] < -1e-4
+        finally:
+            control.table[type(started)] = own
+            law.REPLACED.clear()
+        assert here() == right[0]
 
 
 # Several processes

@@ -24,6 +24,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from tandemlift.core import law
 from tandemlift.core.types import is_value
 
 MAGIC = b"tandemlift machine code 1\n"
@@ -185,12 +186,13 @@ def key_of(value: Any, *more: Any, files: Iterable[Path] = ()) -> str:
         files: its sources beside tracer and compiler, if it is not the code of a flight.
 
     Returns:
-        The key. It is empty if a class is not of this package: a user's law may read numbers from any file, so only the
-        module that is traced from it tells whether code on disk is its own.
+        The key. It is empty if a class, or the law that is registered for it, is not of this package: a user's law may
+        read numbers from any file, so only the module that is traced from it tells whether code on disk is its own.
     """
     from tandemlift.compiler.machine_code.machine import processor
 
-    if not all(c.__module__.startswith("tandemlift.") for c in classes(value)):
+    own, replaced = classes(value), {kind for kind, _ in law.REPLACED}
+    if own & replaced or not all(c.__module__.startswith("tandemlift.") for c in own):
         return ""
     versions = sys.version_info[:2], metadata.version("llvmlite"), processor()
     digest = hashlib.sha256(f"{versions} {described(value)} {more}".encode())
