@@ -6,14 +6,13 @@ else is replaced, and another `controller.name` starts from that controller's de
 A function that needs a part of a mission takes that table, or `Mission.hover`: their types are here, too.
 """
 
-from tandemlift.missions.changes import merge, tables_of
+from tandemlift.missions.changes import format_toml, merge, tables_of
 from tandemlift.missions.checking import changed, check
 from tandemlift.missions.loading import (
     DATA,
     MissionLike,
     MissionTemplate,
     built_in,
-    format_toml,
     load_mission,
     mission_from_text,
     mission_of,

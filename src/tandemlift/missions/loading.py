@@ -11,8 +11,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import tomli_w
-
 from tandemlift.core.errors import InputError, shown, suggestion, unknown
 from tandemlift.core.files import DATA, toml_tables
 from tandemlift.missions.changes import (
@@ -156,6 +154,8 @@ def load_mission(
     Raises:
         InputError: the mission does not exist, cannot be read or is invalid; the message has the allowed values.
     """
+    if not isinstance(changes or {}, Mapping):
+        raise InputError(f'changes = {shown(changes)}: must be a dictionary such as {{"mission.duration": 5.0}}')
     with _named(name):
         tables, layers = read_tables(name, controller)
         return check(_with_changes(tables, changes or {}, layers), layers[-1].source, layers)
@@ -190,7 +190,11 @@ def mission_of(source: MissionLike) -> Mission:
     Raises:
         InputError: as by `load_mission`.
     """
-    return source if isinstance(source, Mission) else load_mission(source)
+    if isinstance(source, Mission):
+        return source
+    if isinstance(source, (str, os.PathLike)):
+        return load_mission(source)
+    raise InputError(f"mission = {shown(source)}: must be one from load_mission, or its name or path")
 
 
 class MissionTemplate:
@@ -290,9 +294,3 @@ def _with_changes(tables: Tables, changes: Mapping[str, Any], layers: Sequence[L
     for key, value in changes.items():
         tables = changed_tables(tables, key, value, layers[-1].source)
     return tables
-
-
-def format_toml(tables: Mapping[str, Any]) -> str:
-    """Nested tables as TOML without loss, with lists of numbers on one line."""
-    text = re.sub(r"\[\n\s*([-+.\w\s,]*),\n\s*\]", lambda m: f"[{' '.join(m[1].split())}]", tomli_w.dumps(tables))
-    return re.sub(r"\[\n\s*(\[[^\[\]\n]*\]),\n\s*\]", r"[\1]", text)  # a list of one such list

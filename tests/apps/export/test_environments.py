@@ -174,6 +174,15 @@ def test_an_admittance_of_half_the_damping_follows_a_push_twice_as_fast():
     assert speeds[1] == pytest.approx(2.0 * speeds[0], rel=0.1)
 
 
+def test_a_mask_without_a_truth_begins_nothing():
+    env = short("Transport", 2)
+    env.reset(seed=1)
+    env.step(np.zeros((2, 3)))
+    before = env.block.state.copy()
+    env.reset(options={"reset_mask": np.zeros(2, dtype=bool)})
+    np.testing.assert_array_equal(env.block.state, before)
+
+
 @pytest.mark.parametrize(
     ("act", "words"),
     [
@@ -195,6 +204,12 @@ def test_an_admittance_of_half_the_damping_follows_a_push_twice_as_fast():
         (lambda: short("Transport").step([[0.0, np.nan, 0.0]]), r"actions\[0, 1\] of environment 0 = nan"),
         (lambda: short("FollowHand", 2).reset(options={"person.delay": 0.1}), "person.delay = 0.1: must be the same"),
         (lambda: short("Transport").reset(options={"plant.mas": 1.0}), "plant.mas"),
+        (lambda: short("Transport").reset(options={"mission.seed": 1}), "mission.seed = 1: a lane's seed is given by"),
+        (lambda: short("Transport").reset(seed=1.0), "seed = 1.0: must be from 0"),
+        (lambda: short("Transport", 2).reset(options={"reset_mask": [1]}), r"reset_mask = \[1\]: must be 2 truths"),
+        (lambda: short("Transport", 2).reset(options={"reset_mask": [1, 0]}), "reset_mask = .*: must be 2 truths"),
+        (lambda: FlightVectorEnv("Transport", interval=0.0205), "interval = 0.0205: must be whole steps of 0.001 s"),
+        (lambda: FlightVectorEnv("Transport", persons="random"), "persons = 'random': .* task Transport has no person"),
     ],
 )
 def test_what_cannot_be_is_refused_by_name(act, words):

@@ -81,9 +81,13 @@ class FlightVectorEnv(VectorEnv[Observations, Array, NDArray[Any]]):
         if not mission.mission.step <= interval < np.inf:
             raise InputError(f"interval = {shown(interval)}: must be at least a step, {mission.mission.step:g} s")
         self._steps = round(interval / mission.mission.step)
+        if abs(self._steps * mission.mission.step - interval) > 1e-9 * interval:
+            raise InputError(f"interval = {shown(interval)}: must be whole steps of {mission.mission.step:g} s")
         self._level = ActionLevel(action or self.task.level, mission, num_envs, self._steps * mission.mission.step)
         if persons not in (None, "random"):
             raise InputError(f"persons = {shown(persons)}: must be 'random', or left out")
+        if persons and mission.person.model == "none":
+            raise InputError(f"persons = 'random': must be left out, because task {task} has no person")
         self._drawn = drawn_keys({"draw": {**self.task.drawn, **(draw or {})}})
         if persons:
             self._drawn |= {key: value for key, value in random_person().items() if key != SHARED}
@@ -112,17 +116,20 @@ class FlightVectorEnv(VectorEnv[Observations, Array, NDArray[Any]]):
         """
         keys = dict(options or {})
         mask = keys.pop("reset_mask", None)
+        if mask is not None and (np.shape(mask) != (self.num_envs,) or np.asarray(mask).dtype != bool):
+            raise InputError(f"reset_mask = {shown(mask)}: must be {self.num_envs} truths")
         lanes = list(range(self.num_envs)) if mask is None else np.flatnonzero(mask).tolist()
         if seed is None or isinstance(seed, (int, np.integer)):
             seeds = [None if seed is None else int(seed) + i for i in range(self.num_envs)]
         else:
-            seeds = list(seed)
+            seeds = list(seed) if hasattr(seed, "__len__") else []
         if len(seeds) != self.num_envs or any(n is not None and n < 0 for n in seeds):
             raise InputError(f"seed = {shown(seed)}: must be from 0, one or as many as environments, {self.num_envs}")
         for lane in lanes:
             if seeds[lane] is not None:
                 self._rngs[lane] = np.random.default_rng(seeds[lane])
-        self._begin(lanes, keys)
+        if lanes:
+            self._begin(lanes, keys)
         return self._observations(), {}
 
     def _begin(self, lanes: list[int], options: Mapping[str, Any]) -> None:
@@ -156,7 +163,8 @@ class FlightVectorEnv(VectorEnv[Observations, Array, NDArray[Any]]):
         mode, info = self._mode, dict[str, Any]()
         if mode is AutoresetMode.DISABLED and self._done.any():
             lane = int(np.flatnonzero(self._done)[0])
-            raise InputError(f"environment {lane} is over: reset it by reset(options={{'reset_mask': …}})")
+            instead = "reset(options={'reset_mask': …})" if self.num_envs > 1 else "reset()"
+            raise InputError(f"environment {lane} is over: reset it by {instead}")
         taken = self._level.of(given, self.block)
         if not self._done.all():
             self.block.step(taken, steps=self._steps)

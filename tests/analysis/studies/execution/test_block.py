@@ -180,9 +180,16 @@ REFUSED = [
     (lambda b: b.reset(seed=-1), "seed = -1: must be a whole number from 0"),
     (lambda b: b.reset(keys={"mission.step": 0.002}), "mission.step = 0.002: must be the same in all lanes, because"),
     (
-        lambda b: b.reset(keys={"plant.mass_scale": 1.1, "mission.step": 0.002, "mission.seed": 3}),
+        lambda b: b.reset(keys={"plant.mass_scale": 1.1, "mission.step": 0.002, "plant.inertia_scale": [1, 1, 1]}),
         "mission.step = 0.002",
     ),
+    (
+        lambda b: b.reset(keys={"plant.mass_scale": 1.1, "mission.seed": 3}),
+        "mission.seed = 3: a lane's seed is given by",
+    ),
+    (lambda b: b.reset(keys=3), "keys = 3: must be a dictionary, such"),
+    (lambda b: b.reset([0, 1], keys=[{}, "plant.mass_scale"]), 'keys = "plant.mass_scale": must be a dictionary, such'),
+    (lambda b: b.reset([0, 0], seed=[1, 2]), r"lanes = \[0, 0\]: must be given once each"),
     (lambda b: b.reset(keys={"controller.name": "pid"}), 'controller.name = "pid": .* picks the laws of their steps'),
     (lambda b: b.reset(keys={"vehicle.payload.mass": -1.0}), "vehicle.payload.mass"),
     (lambda b: b.reset(keys={"vehicle.payload.mas": 1.0}), "mass"),

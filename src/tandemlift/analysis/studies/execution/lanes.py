@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from types import NoneType
 from typing import Any
 
 import numpy as np
@@ -66,6 +67,10 @@ class Lanes:
     def _plan_with(self, keys: Keys, seed: int) -> FlightPlan:
         if not keys:
             return self.first
+        if "mission.seed" in keys:
+            raise InputError(
+                f"mission.seed = {shown(keys['mission.seed'])}: a lane's seed is given by seed=, not by keys"
+            )
         plan = FlightPlan(self._template.mission({**keys, "mission.seed": seed}), interactive=True)
         if reason := _shared(self.first, plan):
             *others, (key, value) = keys.items()
@@ -139,9 +144,12 @@ def one_for_each(name: str, value: Any, count: int) -> Sequence[Any]:
         InputError: a list has another length.
     """
     if value is None or isinstance(value, (Mapping, str)) or np.ndim(value) == 0:
-        return [value] * count
+        value = [value] * count
     if len(value) != count:
         raise InputError(f"{name}: {len(value)} given, but {count} lanes are reset; give one for each, or one for all")
+    wrong = [own for own in value if not isinstance(own, (Mapping, NoneType))] if name == "keys" else []
+    if wrong:
+        raise InputError(f'keys = {shown(wrong[0])}: must be a dictionary, such as {{"plant.mass_scale": 1.1}}')
     return list(value)
 
 
@@ -162,4 +170,6 @@ def lane_numbers(lanes: Any, count: int) -> list[int]:
         if not 0 <= lane < count:
             raise InputError(f"lanes: there is no lane {lane}; they go from 0 to {count - 1}")
     numbers: list[int] = given.tolist()
+    if len(set(numbers)) < len(numbers):
+        raise InputError(f"lanes = {shown(lanes)}: must be given once each")
     return numbers
