@@ -14,8 +14,9 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.progress import Stopped, always, progress_or_own
 from tandemlift.core.types import Progress, leaves, unflat
 from tandemlift.flight.record import Flight
-from tandemlift.missions import MissionLike, mission_of
+from tandemlift.missions import Mission, MissionLike, mission_of
 from tandemlift.missions.recording import engine_of
+from tandemlift.parts.controllers import explained
 from tandemlift.simulation.caller_values import count_of
 from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.plan import FlightPlan
@@ -168,6 +169,18 @@ def _flown_by_threads(groups: _FlightGroups, keep: str, count: int) -> list[Any]
     return [results[place] for place in range(groups.read)]
 
 
+def refusal_of(error: Exception, mission: Mission) -> InputError:
+    """The refusal of a mission by an error of its flight, if that is invalid input or of a user's controller.
+
+    Raises:
+        Exception: the error is another one.
+    """
+    told = explained(error, mission.controller.name)
+    if isinstance(told, InputError):
+        return told
+    raise error
+
+
 def _flown(flights: list[FlightPlan], keep: str, going: Callable[[], bool]) -> list[Any]:
     """The flights of a group, flown as a block if there are several, or their metrics."""
     p = flights[0]
@@ -240,10 +253,10 @@ class _FlightGroups:
             return [group.refusal]
         try:
             return _flown(group.flights, keep, going)
-        except InputError as error:
+        except Exception as error:
             if not self.refusals:
                 raise
-            return [error] * len(group.flights)
+            return [refusal_of(error, group.flights[0].mission)] * len(group.flights)
 
     def _plan(self, mission: MissionLike | InputError) -> FlightPlan | InputError:
         try:

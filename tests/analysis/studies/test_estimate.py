@@ -32,5 +32,5 @@ def test_an_estimate_grows_with_the_rows_and_with_the_files(monkeypatch):
     [(7.0, "7.0 s"), (100.0, "100.0 s"), (150.0, "2.5 min"), (5000.0, "83.3 min"), (9000.0, "2.5 h")],
 )
 def test_an_estimate_is_told_in_the_largest_unit_of_which_there_are_two(seconds, words):
-    _, time = estimate.StudyEstimate(1, 1, 1, seconds, 0).lines(1)
+    _, time = estimate.StudyEstimate(1, 1, 1, seconds, 0).lines(1, "threads")
     assert time == f"time    some {words} on 1 threads; {words} on one"

@@ -1,5 +1,6 @@
 """`tandemlift study`: what is printed of rows that cannot be flown, and what is refused before any is."""
 
+import re
 import sys
 from contextlib import nullcontext
 
@@ -56,29 +57,84 @@ def test_a_controller_all_of_whose_rows_are_refused_is_named_with_the_reason_and
     assert (tmp_path / "out" / "weights" / "report.html").is_file()
 
 
+FAILS = '''
+"""A controller in plain Python that fails above a setting."""
+
+from typing import NamedTuple
+
+import tandemlift.parts.controllers as tc
+from tandemlift.core.keys import key
+from tandemlift.core.vector import ZERO
+from tandemlift.parts.controllers import Command, ControllerTable, NoMemory, control
+from tandemlift.parts.mechanics.rigid_body import Wrench
+
+
+class Settings(ControllerTable):
+    """One key."""
+
+    limit: float = key(0.0, "m", "height")
+
+
+class Gains(NamedTuple):
+    """Height and weight."""
+
+    limit: float
+    weight: float
+
+
+@control.register(Gains, compiled=False)
+def hold(gains, memory, measured, reference):
+    """Fail below the limit."""
+    if measured.state.position.z < gains.limit:
+        raise ValueError("too low")
+    return Command(Wrench(gains.weight, ZERO), ZERO), memory
+
+
+@tc.register("fails", Settings)
+def start(settings, vehicle, step):
+    """Thrust alone."""
+    return Gains(settings.limit, 9.81 * vehicle.mass), NoMemory()
+'''
+
+
+@pytest.mark.parametrize("where", ["--threads", "--processes"])
+def test_a_controller_that_fails_in_flight_is_the_reason_of_its_row_and_the_others_fly(where, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "fails.py").write_text(FAILS, "utf-8")
+    (tmp_path / "one.toml").write_text(
+        '[study]\nname = "one"\nmissions = ["hover"]\ncontrollers = ["fails.py"]\n[set]\nmission.duration = 0.01\n'
+        "[grid]\ncontroller.limit = [-1.0, 1.0]\n",
+        "utf-8",
+    )
+    done = CliRunner().invoke(cli, ["study", "one.toml", "--no-report", where, "1"], catch_exceptions=False)
+    assert done.exit_code == 0, done.output
+    assert re.search(r"refused +1 ", done.output)
+    assert "row 1 is refused: controller 'fails' fails: fails.py, line 30: ValueError: too low" in done.output
+
+
 @pytest.mark.parametrize(
     ("draws", "options", "expected"),
     [
-        (16, (), 2),
-        (15, (), None),
-        (16, ("--part", "1/2"), None),
-        (16, ("--threads", "1"), None),
+        (2000, (), 3),
+        (1999, (), None),
+        (2000, ("--part", "1/2"), None),
+        (2000, ("--threads", "1"), None),
+        (2000, ("--set", "study.rows_per_chunk=1200"), 2),
         (3, ("--processes", "3"), 3),
     ],
 )
-def test_processes_fly_a_study_unless_they_would_start_for_less_than_two_chunks_each(
+def test_processes_fly_a_study_of_many_rows_one_for_each_processor_that_has_a_chunk(
     draws, options, expected, tmp_path, monkeypatch
 ):
     started = []
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("os.cpu_count", lambda: 2)
+    monkeypatch.setattr("tandemlift.analysis.studies.execution.workers.processors", lambda: 3)
+    monkeypatch.setattr("tandemlift.analysis.studies.execution.chunk_scheduling.fly_study", lambda *_, **__: 0)
     monkeypatch.setattr(
         "tandemlift.analysis.studies.execution.workers.worker_processes",
         lambda count: started.append(count) or nullcontext(),
     )
-    (tmp_path / "one.toml").write_text(
-        '[study]\nname = "one"\nmissions = ["hover"]\nrows_per_chunk = 4\n[set]\nmission.duration = 0.1\n', "utf-8"
-    )
+    (tmp_path / "one.toml").write_text('[study]\nname = "one"\nmissions = ["hover"]\n', "utf-8")
     words = ["study", "one.toml", "--no-report", "--set", f"study.draws={draws}", *options]
     done = CliRunner().invoke(cli, words, catch_exceptions=False)
     assert done.exit_code == 0, done.output

@@ -6,8 +6,7 @@
 from __future__ import annotations
 
 import re
-import traceback
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Literal, NamedTuple
@@ -26,7 +25,7 @@ from tandemlift.core.types import Progress
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, load_mission
 from tandemlift.missions.loading import MissionTemplate
-from tandemlift.parts.controllers import CONTROLLERS, Controller, controller, error_text, file_of
+from tandemlift.parts.controllers import CONTROLLERS, Controller, controller, explained
 
 
 class Entry(NamedTuple):
@@ -86,10 +85,11 @@ class MissionComparison:
         missions, engines = zip(*((e.mission, e.engine) for e in self.entries if e.mission), strict=True)
         try:  # on one thread, because their speed is compared
             flights = fly_each(missions, engines, keep="flights", interrupted=True, threads=1, progress=progress)
-        except InputError:
-            raise
         except Exception as error:
-            raise _explained(error, [mission.controller.name for mission in missions]) from error
+            told = [explained(error, mission.controller.name) for mission in missions]
+            if all(one is error for one in told):
+                raise
+            raise next(one for one in told if one is not error) from error
         flown = iter(flights)
         return replace(self, entries=[e._replace(flight=next(flown)) if e.mission else e for e in self.entries])
 
@@ -204,15 +204,6 @@ def _own_mission(name: str, changes: Mapping[str, Any], others: Mapping[str, Any
             f"{error}\n--set gives keys to {own.controller.name} only, the controller of mission {own.mission.name}. "
             "Give those of another one by a mission file that has its [controller]."
         ) from None
-
-
-def _explained(error: Exception, controllers: Iterable[str]) -> Exception:
-    """The error of a user's controller, with the line of its file; any other error unchanged."""
-    files = {frame.filename for frame in traceback.extract_tb(error.__traceback__)}
-    for own in map(controller, controllers):
-        if not own.start.__module__.startswith("tandemlift.") and file_of(own) in files:
-            return InputError(f"controller {own.name!r} fails: {error_text(error, file_of(own))}")
-    return error
 
 
 def names_in(option: str, given: str, example: str) -> list[str]:

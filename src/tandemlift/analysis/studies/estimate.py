@@ -24,10 +24,11 @@ class StudyEstimate(NamedTuple):
     seconds: float
     size: int
 
-    def lines(self, threads: int) -> Iterator[str]:
-        """The estimate in words, for so many threads."""
+    def lines(self, count: int, kind: str) -> Iterator[str]:
+        """The estimate in words, for so many workers: "threads", or "processes", which take seconds to start."""
         yield f"files   {self.chunks:,} of {self.rows_per_chunk} rows, some {_bytes(self.size)} in all"
-        yield f"time    some {_time(self.seconds / threads)} on {threads} threads; {_time(self.seconds)} on one"
+        start = " beside their start" if kind == "processes" else ""
+        yield f"time    some {_time(self.seconds / count)} on {count} {kind}{start}; {_time(self.seconds)} on one"
 
 
 def estimate(plan: StudyPlan) -> StudyEstimate:

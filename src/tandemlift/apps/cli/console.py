@@ -65,6 +65,8 @@ def exit_now(status: int) -> None:
     for stream in (sys.stdout, sys.stderr):
         with contextlib.suppress(OSError, ValueError):
             stream.flush()
+    if util := sys.modules.get("multiprocessing.util"):
+        util._run_finalizers()  # frees the semaphores of worker processes
     os._exit(status)
 
 

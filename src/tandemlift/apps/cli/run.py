@@ -83,7 +83,7 @@ def run(
         engine_named(engine)
     loaded, own, name = _selected(mission, study, row, flying.with_after_crash(settings, after_crash), chosen)
     with results_folder(out, Path("out") / name, flying.FILES, mission) as folder:
-        flight = fly_mission(loaded, engine or own, chosen)
+        flight = fly_mission(loaded, engine or own)
         write_results(flight, folder, began, loaded.person.recording, figures=not no_figures)
     flying.exit_if_amiss({flight.name: flight}, strict=strict)
 
@@ -112,21 +112,19 @@ def _selected(
     return mission_of_row(Path(study), row, dict(map(flying.parse_setting, settings)))
 
 
-def fly_mission(mission: Mission, engine: str | None, controller: Controller | None = None) -> Flight:
+def fly_mission(mission: Mission, engine: str | None) -> Flight:
     """Fly a mission, with a progress bar; the error of a user's own controller names its line."""
-    from tandemlift.parts.controllers import error_text, file_of
+    from tandemlift.parts.controllers import explained
     from tandemlift.simulation.fly import fly
     from tandemlift.simulation.plan import FlightPlan
 
     try:
         with progress_bar("Flying", "steps", shown=FlightPlan(mission).takes_long) as progress:
             return fly(mission, engine, progress=progress)
-    except InputError:
-        raise
     except Exception as error:
-        if controller is None or controller.start.__module__.startswith("tandemlift."):
+        if (told := explained(error, mission.controller.name)) is error:
             raise
-        raise InputError(f"controller {controller.name!r} fails: {error_text(error, file_of(controller))}") from error
+        raise told from error
 
 
 def write_results(flight: Flight, folder: Path, began: float, recording: str | None, *, figures: bool) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from contextlib import nullcontext
 from functools import partial
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
     from tandemlift.analysis.studies.execution.chunk_scheduling import StudyPart
 
 
-CHUNKS = 2  # for each process; fewer are flown by threads before the processes have started
+MANY = 2_000  # rows; fewer are mostly flown by threads before processes have started
 
 
 @click.command()
@@ -40,7 +39,7 @@ CHUNKS = 2  # for each process; fewer are flown by threads before the processes 
 @click.option(
     "--processes",
     type=click.IntRange(min=1),
-    help="Processes that fly.  [default: one for each processor, if each has two chunks to fly]",
+    help="Processes that fly.  [default: one for each processor, if there are 2,000 rows]",
 )
 @click.option("--threads", type=click.IntRange(min=1), help="Threads that fly, in place of processes.")
 @click.option("--part", default="1/1", metavar="K/N", help="Fly part K of N only, as in a job array.")
@@ -95,13 +94,12 @@ def study(
         raise click.UsageError("Missing argument 'FILE': a study file; `tandemlift study --template` prints one.")
     if metrics and no_report:
         raise InputError(f"--for {metrics[0]}: leave out --no-report, or there is no report to show it")
-    if processes and threads:
-        raise InputError("--processes, --threads: give only one of them")
     from tandemlift.analysis.studies.design.study_files import load_plan
     from tandemlift.analysis.studies.execution.chunk_scheduling import part_from
     from tandemlift.analysis.studies.execution.store import check_names
 
     chosen, plan = part_from(part), load_plan(file, dict(map(parse_setting, settings)))
+    workers = _workers(plan, chosen, processes, threads)
     check_names(plan, metrics)
     rows = f"{plan.count:,} rows = {plan.sizes}" if plan.count > 1 else plan.sizes
     echo(f"{plan.settings.study.name}: {rows}")
@@ -110,17 +108,28 @@ def study(
 
         with compile_notices.together():
             expected = estimate(plan)
-        echo(*(f"  {line}" for line in expected.lines(processes or threads or os.cpu_count() or 1)))
+        echo(*(f"  {line}" for line in expected.lines(*workers)))
         return
-    _fly(plan, out, chosen, processes, threads, metrics, report=not no_report)
+    _fly(plan, out, chosen, workers, metrics, report=not no_report)
+
+
+def _workers(plan: StudyPlan, part: StudyPart, processes: int | None, threads: int | None) -> tuple[int, str]:
+    """The number of workers, and what they are: processes, or threads where few rows are to fly."""
+    from tandemlift.analysis.studies.execution.workers import processors
+
+    if processes and threads:
+        raise InputError("--processes, --threads: give only one of them")
+    rows = plan.count // part.parts
+    if threads is None and processes is None and rows >= MANY and processors() > 1:
+        processes = min(processors(), -(-rows // plan.rows_per_chunk))
+    return (processes, "processes") if processes else (threads or processors(), "threads")
 
 
 def _fly(
     plan: StudyPlan,
     out: str | None,
     part: StudyPart,
-    processes: int | None,
-    threads: int | None,
+    workers: tuple[int, str],
     metrics: tuple[str, ...],
     *,
     report: bool,
@@ -132,14 +141,10 @@ def _fly(
     from tandemlift.analysis.studies.table import load_study, outcome_lines
 
     folder = open_folder(plan, Path("out") / plan.settings.study.name if out is None else Path(out))
-    if not (processes or threads):
-        processors, chunks = os.cpu_count() or 1, plan.count / plan.rows_per_chunk / part.parts
-        processes = processors if 1 < processors <= chunks / CHUNKS else None
-    say, name = partial(click.echo, err=True), plan.settings.study.name
-    in_processes = worker_processes(processes) if processes else nullcontext()
-    with in_processes as executor, progress_bar(name, "rows") as progress:
-        threads = processes or threads
-        fly_study(plan, folder, threads=threads, executor=executor, part=part, progress=progress, say=say)
+    (count, kind), say, name = workers, partial(click.echo, err=True), plan.settings.study.name
+    processes = worker_processes(count) if kind == "processes" else nullcontext()
+    with processes as executor, progress_bar(name, "rows") as progress:
+        fly_study(plan, folder, threads=count, executor=executor, part=part, progress=progress, say=say)
     study = load_study(folder.path)
     echo(*(f"  {line}" for line in outcome_lines(study)))
     if report and not study.missing:

@@ -162,6 +162,15 @@ def _try(name: str, gains: object, memory: object, like: object) -> None:
     _tried.add((law, like))
 
 
+def explained(error: Exception, name: str) -> Exception:
+    """The error of a user's controller of that name, with the line of its file; any other error unchanged."""
+    own, files = CONTROLLERS.get(name), {frame.filename for frame in traceback.extract_tb(error.__traceback__)}
+    if isinstance(error, InputError) or own is None or own.start.__module__.startswith("tandemlift."):
+        return error
+    text = f"controller {name!r} fails: {error_text(error, file_of(own))}"
+    return InputError(text) if file_of(own) in files else error
+
+
 def error_text(error: BaseException, file: str) -> str:
     """An error in one line, with its line in the file."""
     name, kind = Path(file).name, "" if isinstance(error, InputError) else f"{type(error).__name__}: "

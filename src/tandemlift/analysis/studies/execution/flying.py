@@ -15,7 +15,7 @@ from tandemlift.core.types import Progress
 from tandemlift.engines.registry import EngineLost, engine_named
 from tandemlift.missions import Mission
 from tandemlift.missions.loading import MissionTemplate
-from tandemlift.simulation.fly import fly, fly_many
+from tandemlift.simulation.fly import fly, fly_many, refusal_of
 
 Keep = Literal["flights", "metrics"]
 
@@ -90,10 +90,10 @@ def _one_by_one(
             if flight.outcome == INTERRUPTED and not interrupted:
                 raise EngineLost(flight.failure)
             results.append(flight if keep == "flights" else flight.metrics())
-        except InputError as error:
+        except Exception as error:
             if not refusals:
                 raise
-            results.append(error)
+            results.append(error if isinstance(mission, InputError) else refusal_of(error, mission))
         if progress:
             progress(len(results), len(missions))
     return results

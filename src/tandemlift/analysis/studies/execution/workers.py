@@ -26,6 +26,11 @@ Task: TypeAlias = Callable[[], Columns]
 """A function that flies a chunk; it can be pickled."""
 
 
+def processors() -> int:
+    """The number of processors that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
 class ThreadWorkers:
     """Threads of this process.
 
@@ -120,6 +125,7 @@ def worker_processes(count: int) -> Iterator[Executor]:
         try:
             yield pool
         except BaseException:  # also Ctrl-C: do not wait for their chunks
+            pool.shutdown(wait=False, cancel_futures=True)  # first, or it complains of futures that were cancelled
             for process in multiprocessing.active_children():
                 if process not in others:
                     process.terminate()
@@ -144,13 +150,15 @@ def workers_of(threads: int | None, executor: Executor | None) -> Iterator[Worke
     """Threads of this process, or the workers of an executor.
 
     Args:
-        threads: their number; by default one for each processor, or what the executor has.
+        threads: their number, at least 1; by default one for each processor, or what the executor has.
         executor: None for threads of this process; after an error or Ctrl-C, their chunks are not waited for.
     """
+    if threads is not None:
+        count_of("threads", threads)
     if executor is not None:
-        yield ExecutorWorkers(executor, threads or getattr(executor, "_max_workers", None) or os.cpu_count() or 1)
+        yield ExecutorWorkers(executor, threads or getattr(executor, "_max_workers", None) or processors())
         return
-    count = threads or os.cpu_count() or 1
+    count = threads or processors()
     pool = ThreadPoolExecutor(count, "study")
     try:
         yield ThreadWorkers(pool, count)
