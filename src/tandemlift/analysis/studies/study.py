@@ -5,14 +5,13 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from concurrent.futures import Executor
-from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution.chunk_scheduling import fly_study, part_from
 from tandemlift.analysis.studies.execution.store import StudyFolder, open_folder
-from tandemlift.analysis.studies.execution.workers import worker_processes
+from tandemlift.analysis.studies.execution.workers import executor_of
 from tandemlift.analysis.studies.table import Study, load_study
 from tandemlift.core.errors import InputError
 from tandemlift.core.progress import progress_or_own
@@ -49,9 +48,7 @@ def study(
         InputError: processes are given beside threads or an executor, the study cannot be flown, the folder is that of
             another study, or it cannot be written to.
     """
-    if processes is not None and (threads is not None or executor is not None):
-        raise InputError(f"processes = {processes}: leave out threads and executor")
-    with nullcontext(executor) if processes is None else worker_processes(processes) as workers:
+    with executor_of(threads, processes, executor) as workers:
         plan = load_plan(study)
         folder = open_folder(plan, Path("out") / plan.settings.study.name if out is None else Path(out))
         chosen, count = part_from(part), processes or threads

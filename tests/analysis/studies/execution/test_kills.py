@@ -94,7 +94,12 @@ def test_processes_and_threads_of_any_executor_give_the_same_rows(flown_twelve, 
 def test_a_study_in_processes_has_the_same_rows(flown_twelve, tmp_path):
     assert tl.study(TWELVE, tmp_path, processes=2).missing == 0
     assert_same_rows(flown_twelve, tmp_path)
-    for where, words in [({"processes": 0}, "processes = 0: must be"), ({"processes": 2, "threads": 1}, "leave out")]:
+    refused = [
+        ({"processes": 0}, "processes = 0: must be"),
+        ({"processes": 2, "threads": 1}, "leave out"),
+        ({"threads": 0}, "threads = 0: must be"),
+    ]
+    for where, words in refused:
         with pytest.raises(InputError, match=words):
             tl.study(TWELVE, tmp_path / "none", **where)
     assert not (tmp_path / "none").exists()

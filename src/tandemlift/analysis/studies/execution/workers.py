@@ -14,7 +14,7 @@ import signal
 import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from typing import Any, TypeAlias
 
 from tandemlift.analysis.studies.execution.chunk import sources_digest
@@ -132,6 +132,21 @@ def worker_processes(count: int) -> Iterator[Executor]:
             raise
 
 
+@contextmanager
+def executor_of(threads: int | None, processes: int | None, executor: Executor | None) -> Iterator[Executor | None]:
+    """The executor that is asked for; None for threads of this process.
+
+    Raises:
+        InputError: a number is not a whole one of at least 1, or processes are given beside something else.
+    """
+    if processes is not None and (threads is not None or executor is not None):
+        raise InputError(f"processes = {processes}: leave out threads and executor")
+    if threads is not None:
+        count_of("threads", threads)
+    with nullcontext(executor) if processes is None else worker_processes(processes) as found:
+        yield found
+
+
 def _end_with_parent() -> None:
     """Leave Ctrl-C to the process that started this one, and end when that one does, however it ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -153,8 +168,6 @@ def workers_of(threads: int | None, executor: Executor | None) -> Iterator[Worke
         threads: their number, at least 1; by default one for each processor, or what the executor has.
         executor: None for threads of this process; after an error or Ctrl-C, their chunks are not waited for.
     """
-    if threads is not None:
-        count_of("threads", threads)
     if executor is not None:
         yield ExecutorWorkers(executor, threads or getattr(executor, "_max_workers", None) or processors())
         return
