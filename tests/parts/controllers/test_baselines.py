@@ -148,6 +148,7 @@ def test_about_hover_the_moment_is_the_feedback_of_the_linear_chain(place, turne
         state = State(position, velocity, quaternion_from_euler(tilt), rates)
         moment = array(command("lqr", state).wrench.moment)
         assert sign * moment[turned] == pytest.approx(-J[turned] * K[part] * size, rel=1e-4)
+    assert started("lqr")[0].accelerations[turned] == pytest.approx(K[4], rel=1e-6)
 
 
 # In flight, without an observer: what a constant force of 1 N leaves is known in closed form

@@ -170,7 +170,8 @@ def test_poles_and_covariance_of_the_moment_are_those_of_the_kalman_bucy_filter(
     )
 
 
-def test_the_extended_filter_is_that_of_filterpy_for_samples_at_random_times():
+@pytest.mark.parametrize("name", ["extended-kalman", "unscented"])
+def test_a_filter_of_one_axis_is_that_of_filterpy_for_samples_at_random_times(name):
     """One axis each of translation and rotation, level: position and angle measured at random samples."""
     kalman = pytest.importorskip("filterpy.kalman")
     rng, sizes = np.random.default_rng(5), np.array([MASS, INERTIA[0]])
@@ -183,7 +184,7 @@ def test_the_extended_filter_is_that_of_filterpy_for_samples_at_random_times():
         f.F = np.array([[1.0, H, 0.5 * H * H], [0.0, 1.0, H], [0.0, 0.0, 1.0]])
         f.Q = np.diag([0.0, 0.0, (change / size) ** 2 * H])
         filters.append(f)
-    carried, k, memory = Wrench(MASS * GRAVITY, ZERO), *started("extended-kalman")
+    carried, k, memory = Wrench(MASS * GRAVITY, ZERO), *started(name)
     for i in range(400):
         t, fresh = i * H, float(i == 0 or rng.random() < 0.3)
         value = 0.5 * np.array([0.3, 0.1]) * t * t + value_noise * rng.normal(size=2) * (i > 0)

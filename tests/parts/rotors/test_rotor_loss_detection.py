@@ -231,13 +231,13 @@ def test_the_fraction_that_is_taken_for_lost_has_the_most_evidence(fit, size):
 
 
 def test_modelled_rotors_explain_the_change_of_momentum_that_they_make_about_every_axis():
-    """Level, with thrusts that differ: what the momentum changes by is their wrench, from the effect."""
+    """Level, with thrusts that differ: the momentum changes by their wrench, from the effect, and by what else acts."""
     thrusts = np.random.default_rng(5).uniform(2.0, 5.0, 8)
-    made = VEHICLE.effect @ thrusts
+    made, others = VEHICLE.effect @ thrusts, np.array([-30.0, 0.6, -0.4, 0.7])
     memory = SETTLED._replace(
         thrusts=SETTLED.thrusts._replace(value=EIGHT(*thrusts.tolist())),
-        momentum=SETTLED.momentum._replace(rate=each(4)(*(made + np.array([0.5, 0.1, 0.2, 0.3])).tolist())),
-        others=SETTLED.others._replace(value=each(4)(0.0, 0.0, 0.0, 0.0)),
+        momentum=SETTLED.momentum._replace(rate=each(4)(*(made + others + [0.5, 0.1, 0.2, 0.3]).tolist())),
+        others=SETTLED.others._replace(value=each(4)(*others.tolist())),
     )
     level = PilotInput(State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Absent())
     assert np.abs(made).min() > 0.05  # about every axis
