@@ -8,6 +8,7 @@ import pytest
 from scipy.interpolate import BPoly
 
 from tandemlift.apps.clients.quadrotors import ArmingState
+from tandemlift.apps.clients.setpoints import AttitudeSetpoint
 
 
 def header(port, channel):
@@ -127,6 +128,36 @@ def test_a_client_that_vanishes_is_levelled_out_after_half_a_second_and_stopped_
     pair.seconds(0.9)
     assert pair.quads.supervision == [ArmingState.LOCKED] * 2
     assert bits(pair.devices[0]) & 0x40
+
+
+@pytest.mark.parametrize("stop", [DISARM, EMERGENCY])
+def test_one_that_is_disarmed_in_flight_stops_its_rotors_and_the_other_keeps_to_its_own_thrust(pair, stop):
+    pair.seconds(4.0, lambda: pair.both(hover(height=1.0)))
+    weight = pair.quads.vehicle.weight / 2.0
+    pair.devices[0].receive(stop)
+    for _ in range(30):
+        pair.quads.command(1, AttitudeSetpoint(0.0, 0.0, weight))
+        pair.flight.step(10)
+        assert pair.state(0).thrusts == (0.0,) * 4
+        assert sum(pair.state(1).thrusts) < 1.01 * weight
+    assert pair.state(0).position[2] < pair.state(1).position[2] - 0.05
+    assert pair.state(0).velocity[2] < -0.5
+
+
+def test_one_that_was_disarmed_turns_its_rotors_once_it_is_armed_or_after_all_have_stood(pair):
+    pair.seconds(3.0, lambda: pair.both(hover(height=0.5)))
+    pair.devices[0].receive(DISARM)
+    pair.seconds(0.05, lambda: pair.devices[1].receive(hover(height=0.5)), every=0.05)
+    assert sum(pair.state(0).thrusts) == 0.0
+    pair.devices[0].receive(ARM)
+    pair.seconds(4.0, lambda: pair.devices[1].receive(hover(height=0.5)))
+    assert pair.state(0).position[2] == pytest.approx(0.5, abs=0.05)
+    pair.seconds(4.0, lambda: pair.devices[1].receive(hover(height=0.0)))
+    pair.both(header(7, 0) + b"\0")
+    pair.seconds(0.5)
+    pair.devices[0].receive(DISARM)  # on the floor: the other one carries it again
+    pair.seconds(4.0, lambda: pair.devices[1].receive(hover(height=0.5)))
+    assert pair.state(0).position[2] == pytest.approx(0.5, abs=0.05)
 
 
 def test_an_emergency_stop_is_for_good(pair):

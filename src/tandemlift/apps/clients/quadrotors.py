@@ -1,8 +1,9 @@
 """The quadrotors of one rigid vehicle, each armed, commanded and read by itself, as a client of a real one does.
 
 Each has a cascade of its own (`control = "own"`), whose integrators fight through the beam; or all share one pair of
-inner loops and one allocation ("shared"): thrusts add up, attitudes and yaws are averaged, and integrators agree. A
-supervisor stops a quadrotor whose setpoints no longer come, as the firmware does.
+inner loops and one allocation ("shared"): thrusts add up, attitudes and yaws are averaged, and integrators agree; one
+without a setpoint is carried, its rotors turn with the others', unless it was disarmed in flight. A supervisor stops a
+quadrotor whose setpoints no longer come, as the firmware does.
 """
 
 from __future__ import annotations
@@ -99,6 +100,7 @@ class Quadrotors:
     def _begin(self) -> None:
         """Begin a flight: nothing is armed or commanded."""
         self.supervision = [ArmingState.DISARMED] * self.count
+        self._killed = set[int]()  # which were disarmed while their rotors turned, until all of the group stand
         self._setpoints: list[tuple[sp.Setpoint, float] | None] = [None] * self.count
         self._demands: list[Demand | None] = [None] * self.count
         self._flown: list[sp.Setpoint | None] = [None] * self.count
@@ -137,13 +139,16 @@ class Quadrotors:
         """Arm quadrotor `i`; whether it is."""
         if self.supervision[i] is ArmingState.DISARMED and not self.is_tumbled(i):
             self._setpoints[i], self.supervision[i] = None, ArmingState.ARMED
+            self._killed.discard(i)
         return self.is_armed(i)
 
     def disarm(self, i: int) -> None:
-        """Stop the rotors of quadrotor `i`, until it is armed again."""
+        """Stop the rotors of quadrotor `i`, until it is armed again or all rotors have stood still."""
         if self.supervision[i] is not ArmingState.LOCKED:
             self.supervision[i] = ArmingState.DISARMED
         self._setpoints[i] = None
+        if self._thrusts[4 * i : 4 * i + 4].any():
+            self._killed.add(i)
 
     def lock(self, i: int) -> None:
         """Stop the rotors of quadrotor `i` for good."""
@@ -250,14 +255,17 @@ class Quadrotors:
             flown = [(i, demand) for i in group.members if (demand := self._demands[i])]
             if not flown:
                 group.inner.reset()
+                self._killed.difference_update(group.members)
                 continue
             numbers, demands = zip(*flown, strict=True)
             self._agree(numbers)
             demand = together(demands, [self._arms[i] for i in numbers])
             moment = group.inner.moment(sp.mean_attitude([self._states[i] for i in numbers]), demand, self._dt)
+            turning = tuple(
+                self.supervision[i] is not ArmingState.LOCKED and i not in self._killed for i in group.members
+            )
             # a quadrotor without a setpoint is carried: the others' mean thrust stands for its share
-            wrench = (demand.thrust * len(group.members) / len(flown), *moment)
-            turning = tuple(self.supervision[i] is not ArmingState.LOCKED for i in group.members)
+            wrench = (demand.thrust * sum(turning) / len(flown), *moment)
             self._thrusts[group.rotors] = group.thrusts(wrench, turning, self._max[group.rotors])
 
     def _agree(self, flown: Sequence[int]) -> None:

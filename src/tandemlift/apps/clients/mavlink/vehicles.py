@@ -161,6 +161,8 @@ class MavlinkVehicle:
                 self.autopilot.armed = True
             case mavlink.MAV_CMD_COMPONENT_ARM_DISARM if p[0] == 0.0:
                 self.autopilot.disarm(force=p[1] == FORCE)
+                if p[1] == FORCE:  # one that is carried, too
+                    self._quadrotors.disarm(self._i)
             case mavlink.MAV_CMD_DO_SET_MODE if all(map(math.isfinite, p[1:3])):
                 self._switch(int(p[1]), int(p[2]))
             case mavlink.MAV_CMD_NAV_TAKEOFF:
