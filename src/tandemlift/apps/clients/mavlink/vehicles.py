@@ -158,7 +158,7 @@ class MavlinkVehicle:
             case mavlink.MAV_CMD_COMPONENT_ARM_DISARM if p[0] == 1.0:
                 if not self._quadrotors.arm(self._i):
                     raise InputError(TUMBLED)
-                self.autopilot.armed = True
+                self.autopilot.arm()
             case mavlink.MAV_CMD_COMPONENT_ARM_DISARM if p[0] == 0.0:
                 self.autopilot.disarm(force=p[1] == FORCE)
                 if p[1] == FORCE:  # one that is carried, too
@@ -187,8 +187,7 @@ class MavlinkVehicle:
 class MavlinkVehicles:
     """All quadrotors as MAVLink `vehicles`, whose ports are held while it is entered.
 
-    They are one body: if setpoints of one are lost, the failsafe is that of all that are armed. Keys and channels of a
-    `flight` are among the parameters; clients of the first quadrotor listen at `port`.
+    Keys and channels of a `flight` are among the parameters; clients of the first quadrotor listen at `port`.
     """
 
     def __init__(self, quadrotors: Quadrotors, flight: RealTimeFlight | None = None, port: int = PORT) -> None:
@@ -221,6 +220,9 @@ class MavlinkVehicles:
                 MavlinkVehicle(self._quadrotors, number, link, MavlinkParameters(self.keys, self.readings))
                 for number, link in enumerate(self._links, 1)
             ]
+            crew = [vehicle.autopilot for vehicle in self.vehicles]
+            for autopilot in crew:
+                autopilot.crew = crew
         self._now = now
         for vehicle in self.vehicles:
             vehicle.tick(now)
@@ -229,5 +231,3 @@ class MavlinkVehicles:
                 failed.autopilot.failsafe = None
                 for vehicle in self.vehicles:
                     vehicle.say(f"system {failed.number} has no setpoints: {mode.name}")
-                    if vehicle.autopilot.armed:
-                        vehicle.autopilot.enter(mode)
