@@ -130,6 +130,21 @@ def test_a_client_that_vanishes_is_levelled_out_after_half_a_second_and_stopped_
     assert bits(pair.devices[0]) & 0x40
 
 
+@pytest.mark.parametrize("other", ["armed, and stops", "disarmed, and is sent positions"])
+def test_a_lost_client_is_a_loss_whatever_the_other_one_sends_that_flies_nothing(pair, other):
+    stops = other == "armed, and stops"
+    packet = header(7, 0) + (b"\0" if stops else struct.pack("<Bffff", 7, 0.0, -0.25, 0.5, 0.0))
+    if not stops:
+        pair.devices[1].receive(DISARM)
+    pair.seconds(4.0, lambda: [pair.devices[0].receive(hover()), pair.devices[1].receive(packet)])
+    assert pair.state().position[2] == pytest.approx(0.5, abs=0.05)
+    pair.seconds(1.5, lambda: pair.devices[1].receive(packet))
+    assert pair.quads.supervision[0] is ArmingState.WARNING
+    assert pair.state().position[2] == pytest.approx(0.5, abs=0.05)
+    pair.seconds(0.6, lambda: pair.devices[1].receive(packet))
+    assert pair.quads.supervision[0] is ArmingState.LOCKED
+
+
 @pytest.mark.parametrize("stop", [DISARM, EMERGENCY])
 def test_one_that_is_disarmed_in_flight_stops_its_rotors_and_the_other_keeps_to_its_own_thrust(pair, stop):
     pair.seconds(4.0, lambda: pair.both(hover(height=1.0)))

@@ -205,15 +205,13 @@ class Quadrotors:
         """Find the setpoint of each quadrotor that is flown now, and lock those that must not fly on."""
         self._flown = [None] * self.count
         for group in self._groups:
-            heard = [commanded[1] for i in group.members if (commanded := self._setpoints[i])]
-            for i in group.members:
-                if self.is_armed(i) and self.is_tumbled(i):
+            armed = [i for i in group.members if self.is_armed(i)]
+            for i in armed:
+                if self.is_tumbled(i):
                     self.lock(i)
-                commanded = self._setpoints[i]
-                if not self.is_armed(i) or commanded is None or isinstance(commanded[0], sp.Stop):
-                    continue
-                setpoint, at = commanded
-                age = now - max([at, *heard])  # of the last one of any: a member without commands is no loss
+            commands = {i: c for i in armed if (c := self._setpoints[i]) and not isinstance(c[0], sp.Stop)}
+            for i, (setpoint, at) in commands.items():
+                age = now - max(at for _, at in commands.values())  # a member without commands is no loss
                 if age <= self._fail_safe.level:
                     self.supervision[i] = ArmingState.ARMED
                     if now - at <= self._fail_safe.level:  # else it is carried, by what the others are commanded
