@@ -219,6 +219,45 @@ def test_it_takes_off_goes_and_lands_on_paths_of_least_jerk_at_the_ends(pair):
     assert bits(device) >> 8 == 0b100
 
 
+def takeoff(height, duration):
+    return header(8, 0) + struct.pack("<BBff?f", 7, 0, height, 0.0, True, duration)
+
+
+def test_a_stop_of_the_high_level_commander_stands_the_rotors_without_a_lock(pair):
+    """Also a little before a landing has ended, as scripts do that sleep for its duration."""
+    pair.both(takeoff(0.3, 1.0))
+    pair.seconds(2.0)
+    pair.both(header(8, 0) + struct.pack("<BBff?f", 8, 0, 0.0, 0.0, True, 1.0))
+    pair.seconds(0.98)
+    pair.both(header(8, 0) + b"\x03\x00")
+    pair.seconds(0.01)
+    assert sum(pair.state().thrusts) == 0.0
+    pair.seconds(2.5)
+    assert pair.quads.supervision == [ArmingState.ARMED] * 2
+    assert [answers[0][-1] for answers in pair.both(takeoff(0.3, 1.0))] == [0, 0]
+    pair.seconds(2.0)
+    assert pair.state().position[2] == pytest.approx(0.3, abs=0.05)
+
+
+def test_high_level_commands_are_refused_while_disarmed_and_dropped_by_a_disarming(pair):
+    device = pair.devices[0]
+    pair.both(DISARM)
+    assert [answers[0][-1] for answers in pair.both(takeoff(1.0, 2.0))] == [16, 16]  # EBUSY
+    assert device.receive(header(8, 0) + b"\x03\x00")[0][-1] == 0
+    pair.both(ARM)
+    pair.seconds(0.5)
+    assert not pair.quads.is_flying(0)
+    pair.both(takeoff(0.3, 1.0))
+    pair.seconds(0.2)
+    pair.both(DISARM)
+    pair.seconds(1.0)
+    assert device.plan is None
+    pair.both(ARM)
+    pair.seconds(1.0)
+    assert not pair.quads.is_flying(0)
+    assert pair.state().position[2] < 0.05
+
+
 def test_an_uploaded_trajectory_is_flown_and_what_is_not_there_is_refused(pair):
     device, piece = pair.devices[0], np.zeros((4, 8))
     piece[0, :3] = 0.0, 0.1, 0.02
