@@ -174,6 +174,7 @@ class MavlinkVehicle:
             case mavlink.MAV_CMD_SET_MESSAGE_INTERVAL if p[0] in RATES and p[1] >= -1.0:  # µs; 0: as first; -1: never
                 asked = max(1e-6 * p[1], FASTEST) if p[1] > 0.0 else math.inf
                 self._periods[int(p[0])] = asked if p[1] else self._first[int(p[0])]
+                self._due[int(p[0])] = self.autopilot.state.time
             case _:
                 return mavlink.MAV_RESULT_UNSUPPORTED
         return mavlink.MAV_RESULT_ACCEPTED
