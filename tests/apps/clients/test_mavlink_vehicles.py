@@ -197,6 +197,15 @@ def test_messages_come_at_the_rates_that_are_asked_for(world):
     assert world.result(client, mavlink.MAV_CMD_DO_ORBIT) == mavlink.MAV_RESULT_UNSUPPORTED
 
 
+def test_the_clock_is_that_of_the_stamps(world):
+    client = world.clients[0]
+    client.send("timesync", 0, 12345)
+    world.fly(0.1)
+    answer, stamp = client.last("TIMESYNC"), client.last("ATTITUDE").time_boot_ms
+    assert answer.ts1 == 12345
+    assert 1e-6 * answer.tc1 == pytest.approx(stamp, abs=110.0)
+
+
 def test_a_port_in_use_is_named_and_the_other_one_released(world):
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
         port = free_ports()

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 import socket
 import struct
-import time
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from typing import Any, Self
@@ -140,7 +139,7 @@ class MavlinkVehicle:
                 finally:  # also when it is refused, a client gets the value that counts
                     self._link.send(parameters.message(m.param_id))
             case "TIMESYNC" if m.tc1 == 0:
-                self._link.send(mavlink.MAVLink_timesync_message(time.time_ns(), m.ts1))
+                self._link.send(mavlink.MAVLink_timesync_message(round(1e9 * autopilot.state.time), m.ts1))
 
     def _answer(self, m: Any, p: Sequence[float]) -> None:
         """Run a command and acknowledge it."""
