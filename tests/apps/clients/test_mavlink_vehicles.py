@@ -97,7 +97,7 @@ def packets(kind, rng):
     made = rng.choice(list(mavlink.mavlink_map.values()))
     if kind == "for us":
         handled = ("command_long", "set_mode", "param_set", "param_request_read", "set_attitude_target", "timesync")
-        handled += ("set_position_target_local_ned",)
+        handled += ("set_position_target_local_ned", "command_int", "mission_request_list", "mission_count")
         made = getattr(mavlink, f"MAVLink_{rng.choice(handled)}_message")
     size = made.unpacker.size
     payload = bytearray(rng.randbytes(size))
@@ -195,6 +195,20 @@ def test_messages_come_at_the_rates_that_are_asked_for(world):
     assert client.last("AUTOPILOT_VERSION").uid == 1
     client.command(mavlink.MAV_CMD_DO_ORBIT)
     assert world.result(client, mavlink.MAV_CMD_DO_ORBIT) == mavlink.MAV_RESULT_UNSUPPORTED
+
+
+def test_what_is_not_done_is_answered(world):
+    client = world.clients[0]
+    client.send("command_int", 1, 1, 0, mavlink.MAV_CMD_DO_REPOSITION, 0, 0, *[0.0] * 4, 0, 0, 0.0)
+    assert world.result(client, mavlink.MAV_CMD_DO_REPOSITION) == mavlink.MAV_RESULT_UNSUPPORTED
+    client.send("mission_request_list", 1, 1)
+    client.send("mission_count", 1, 1, 3)
+    client.send("set_position_target_global_int", 0, 1, 1, 6, ONLY_VELOCITY, 0, 0, *[0.0] * 9)
+    world.fly(0.01, 0.01)
+    count, ack = client.last("MISSION_COUNT"), client.last("MISSION_ACK")
+    assert (count.count, count.target_system, count.target_component) == (0, 245, 190)
+    assert (ack.type, ack.target_system) == (mavlink.MAV_MISSION_UNSUPPORTED, 245)
+    assert "global positions: send local ones" in client.texts()
 
 
 def test_the_clock_is_that_of_the_stamps(world):

@@ -119,16 +119,25 @@ class MavlinkVehicle:
         """Do what a message asks for, or raise an `InputError`."""
         if getattr(m, "target_system", 0) not in (0, self.number) or getattr(m, "target_component", 0) not in (0, 1):
             return
-        autopilot, parameters = self.autopilot, self._parameters
+        autopilot, parameters, to = self.autopilot, self._parameters, (m.get_srcSystem(), m.get_srcComponent())
         match m.get_type():
             case "COMMAND_LONG":
                 self._answer(m, [m.param1, m.param2, m.param3, m.param4, m.param5, m.param6, m.param7])
+            case "COMMAND_INT":
+                self._acknowledge(m, mavlink.MAV_RESULT_UNSUPPORTED)
             case "SET_MODE":
                 self._switch(m.custom_mode >> 16 & 255, m.custom_mode >> 24)
             case "SET_ATTITUDE_TARGET":
                 autopilot.offer(attitude_setpoint(m, self._max_thrust), sender)
             case "SET_POSITION_TARGET_LOCAL_NED":
                 autopilot.offer(position_setpoint(m, autopilot.origin, autopilot.state.euler[2]), sender)
+            case "SET_POSITION_TARGET_GLOBAL_INT":
+                raise InputError("global positions: send local ones")
+            case "MISSION_REQUEST_LIST":
+                self._link.send(mavlink.MAVLink_mission_count_message(*to, 0, m.mission_type))
+            case "MISSION_COUNT":
+                unsupported = mavlink.MAV_MISSION_UNSUPPORTED
+                self._link.send(mavlink.MAVLink_mission_ack_message(*to, unsupported, m.mission_type))
             case "PARAM_REQUEST_LIST":
                 self._listed = iter(parameters.names)
             case "PARAM_REQUEST_READ":
@@ -148,6 +157,9 @@ class MavlinkVehicle:
         except InputError as refusal:
             self.say(str(refusal))
             result = mavlink.MAV_RESULT_TEMPORARILY_REJECTED
+        self._acknowledge(m, result)
+
+    def _acknowledge(self, m: Any, result: int) -> None:
         to = m.get_srcSystem(), m.get_srcComponent()
         self._link.send(mavlink.MAVLink_command_ack_message(m.command, result, 0, 0, *to))
 
