@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from two_flight_controllers import ERROR, HEIGHT, errors_of, hover
 
+from tandemlift.apps.clients.cascade import Demand
+from tandemlift.apps.clients.one_body import together
 from tandemlift.apps.clients.quadrotors import ArmingState, FailSafe
 from tandemlift.apps.clients.setpoints import EstimateError, PositionSetpoint, QuadrotorState
 
@@ -22,6 +24,17 @@ def test_own_loops_wind_up_against_each_other_until_the_vehicle_is_lost():
     assert flight.ending != "hovers"
     assert np.all(np.diff(flight.against[10:50:10]) > 0.0)  # integrators grow, second by second
     assert flight.against.max() > 1e-3
+
+
+@pytest.mark.parametrize(("apart", "yaw"), [(0.5, 0.7), (0.3, 0.7), (0.02, 0.4), (0.0, 0.4)])
+def test_targets_turn_the_body_unless_they_are_together(apart, yaw):
+    """Two targets along a line at 0.7 rad, of quadrotors that ask for yaws of 0.3 and 0.5 rad."""
+    c, s = 0.5 * apart * np.cos(0.7), 0.5 * apart * np.sin(0.7)
+    demands = [
+        Demand(1.0, yaw=0.3, target=(3.0 + c, 4.0 + s, 1.0)),
+        Demand(1.0, yaw=0.5, target=(3.0 - c, 4.0 - s, 1.0)),
+    ]
+    assert together(demands, [(0.25, 0.0, 0.0), (-0.25, 0.0, 0.0)]).yaw == pytest.approx(yaw)
 
 
 def test_an_error_of_an_estimate_is_that_rotation():
