@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from two_flight_controllers import ERROR, HEIGHT, errors_of, hover
+from two_flight_controllers import ERROR, errors_of, hover
 
 from tandemlift.apps.clients.cascade import Demand
 from tandemlift.apps.clients.one_body import together
-from tandemlift.apps.clients.quadrotors import ArmingState, FailSafe
 from tandemlift.apps.clients.setpoints import EstimateError, PositionSetpoint, QuadrotorState
 
 
@@ -52,17 +51,6 @@ def fly_to(pair, height, seconds):
     targets = [(x, y, height) for x, y, _ in pair.quads.vehicle.lever_arms.tolist()]
     pair.seconds(seconds, lambda: [pair.quads.command(i, PositionSetpoint(t, 0.0)) for i, t in enumerate(targets)])
     return targets
-
-
-def test_a_fail_safe_that_sinks_lands_and_disarms(pairs):
-    pair = pairs("shared", FailSafe(level=1.0, sink=0.3))
-    fly_to(pair, 0.6, 6.0)
-    assert pair.state().position[2] == pytest.approx(0.6, abs=0.03)
-    pair.seconds(8.0)
-    assert pair.quads.supervision == [ArmingState.DISARMED] * 2
-    assert pair.flight.simulation.ending is None
-    assert abs(pair.state().velocity[2]) < 1e-3
-    assert HEIGHT > 0.6 > pair.state().position[2]
 
 
 def test_a_vehicle_whose_quadrotors_have_own_loops_hovers_where_nothing_is_off(pairs):

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from tandemlift import InputError, Mission, Simulation
-from tandemlift.apps.clients.quadrotors import CRAZYFLIE, Control, FailSafe, Quadrotors
+from tandemlift.apps.clients.quadrotors import Control, Quadrotors
 from tandemlift.apps.clients.setpoints import EstimateError
 from tandemlift.apps.live.session.frames import channel_columns
 from tandemlift.apps.live.session.session import Session
@@ -21,12 +21,10 @@ HIGHEST = 0.02  # m, of the feet above the floor at the start
 BEFORE_THRUSTS, AFTER_OVERRIDE = 6, 4  # numbers of a `CallerInput`: force and point; a velocity and whether it counts
 
 
-def quadrotors_of(
-    mission: Mission, control: Control = "shared", fail_safe: FailSafe = CRAZYFLIE, errors: Sequence[EstimateError] = ()
-) -> Quadrotors:
+def quadrotors_of(mission: Mission, control: Control = "shared", errors: Sequence[EstimateError] = ()) -> Quadrotors:
     """The quadrotors of a mission's vehicle."""
     hover = mission.hover
-    return Quadrotors(hover.vehicle, hover.response_time, mission.mission.step, control, fail_safe, errors)
+    return Quadrotors(hover.vehicle, hover.response_time, mission.mission.step, control, errors)
 
 
 def check_stands(mission: Mission) -> None:

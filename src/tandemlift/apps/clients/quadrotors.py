@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from enum import Enum
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 
@@ -24,24 +24,9 @@ Control = Literal["own", "shared"]
 INNER_EVERY, OUTER_EVERY = 0.002, 0.01  # s; crazyflie-firmware, stabilizer_types.h: ATTITUDE_RATE, POSITION_RATE
 AGREEMENT = 1.0  # s, in which integrators of quadrotors on one body agree; chosen
 TUMBLED = math.radians(90.0)  # beyond this tilt rotors stop
-SETTLING = 1.0  # s, after which a vehicle that sinks no more has landed
 IDLE = 0.05  # of the weight: more thrust than this is a flight
-
-
-class FailSafe(NamedTuple):
-    """The reaction to lost setpoints: after `level` [s] the quadrotor levels out, after `stop` [s] it stops.
-
-    With a `sink` [m/s], it sinks at this speed from `level` on, and stops once it stands.
-
-    The times of the Crazyflie are in crazyflie-firmware, commander.h: COMMANDER_WDT_TIMEOUT_STABILIZE, _SHUTDOWN.
-    """
-
-    level: float = 0.5
-    stop: float = 2.0
-    sink: float = 0.0
-
-
-CRAZYFLIE = FailSafe()
+# s without a setpoint, after which a quadrotor levels out, and stops; crazyflie-firmware, commander.h:
+LEVELS, STOPS = 0.5, 2.0  # COMMANDER_WDT_TIMEOUT_STABILIZE, COMMANDER_WDT_TIMEOUT_SHUTDOWN
 
 
 class ArmingState(Enum):
@@ -63,7 +48,6 @@ class Quadrotors:
         lag: time that rotors take to respond, with delay [s].
         step: of the flight [s].
         control: who closes the inner loops.
-        fail_safe: without setpoints.
         errors: of each quadrotor's estimate; none if empty.
 
     Attributes:
@@ -76,14 +60,13 @@ class Quadrotors:
         lag: float,
         step: float,
         control: Control = "shared",
-        fail_safe: FailSafe = CRAZYFLIE,
         errors: Sequence[sp.EstimateError] = (),
     ) -> None:
         if control not in ("own", "shared"):
             raise InputError(f"control = {control!r}: must be 'own' or 'shared'")
         self.vehicle, self.count, self.control = vehicle, vehicle.count, control
         self._errors = errors or [sp.EstimateError()] * self.count
-        self._fail_safe, self._every = fail_safe, max(round(INNER_EVERY / step), 1)
+        self._every = max(round(INNER_EVERY / step), 1)
         self._outer_every, self._dt = max(round(OUTER_EVERY / INNER_EVERY), 1), self._every * step
         gains = gains_for(lag + self._dt)
         each, self._arms = [q.thrust_limit for q in vehicle.quadrotors], vehicle.lever_arms.tolist()
@@ -212,30 +195,25 @@ class Quadrotors:
             commands = {i: c for i in armed if (c := self._setpoints[i]) and not isinstance(c[0], sp.Stop)}
             for i, (setpoint, at) in commands.items():
                 age = now - max(at for _, at in commands.values())  # a member without commands is no loss
-                if age <= self._fail_safe.level:
-                    self.supervision[i] = ArmingState.ARMED
-                    if now - at <= self._fail_safe.level:  # else it is carried, by what the others are commanded
+                if age <= LEVELS:
+                    if self.supervision[i] is ArmingState.WARNING:
+                        self.supervision[i] = ArmingState.ARMED
+                    if now - at <= LEVELS:  # else it is carried, by what the others are commanded
                         self._flown[i] = setpoint
                 elif self.is_flying(i):
                     self._flown[i] = self._without_setpoint(i, setpoint, age)
 
     def _without_setpoint(self, i: int, last: sp.Setpoint, age: float) -> sp.Setpoint | None:
         """The setpoint of quadrotor `i` if none came for a time [s] after the `last` one; None: its rotors stop."""
-        safe, state = self._fail_safe, self._states[i]
-        if safe.sink:
-            if age > safe.level + SETTLING and abs(state.velocity[2]) < 0.2 * safe.sink:  # it stands
-                self.disarm(i)
-                return None
-            level: sp.Setpoint = sp.VelocitySetpoint((0.0, 0.0, -safe.sink))
-        elif age > safe.stop:
+        if age > STOPS:
             self.lock(i)
             return None
-        elif self.supervision[i] is ArmingState.WARNING:
-            level = self._levels[i]
-        elif isinstance(last, sp.AttitudeSetpoint | sp.RateSetpoint):
+        if self.supervision[i] is ArmingState.WARNING:
+            return self._levels[i]
+        if isinstance(last, sp.AttitudeSetpoint | sp.RateSetpoint):
             level = sp.AttitudeSetpoint(0.0, 0.0, last.thrust, height=getattr(last, "height", None))
         else:
-            level = sp.AttitudeSetpoint(0.0, 0.0, 0.0, height=state.position[2])
+            level = sp.AttitudeSetpoint(0.0, 0.0, 0.0, height=self._states[i].position[2])
         self.supervision[i], self._levels[i] = ArmingState.WARNING, level
         return level
 
@@ -248,7 +226,7 @@ class Quadrotors:
                 self._outer[i].reset()
             elif outer or self._demands[i] is None:
                 self._demands[i] = self._outer[i].demand(self._states[i], setpoint, OUTER_EVERY)
-        self._thrusts = np.zeros(4 * self.count)
+        thrusts = np.zeros(4 * self.count)
         for group in self._groups:
             flown = [(i, demand) for i in group.members if (demand := self._demands[i])]
             if not flown:
@@ -264,7 +242,8 @@ class Quadrotors:
             )
             # a quadrotor without a setpoint is carried: the others' mean thrust stands for its share
             wrench = (demand.thrust * sum(turning) / len(flown), *moment)
-            self._thrusts[group.rotors] = group.thrusts(wrench, turning, self._max[group.rotors])
+            thrusts[group.rotors] = group.thrusts(wrench, turning, self._max[group.rotors])
+        self._thrusts = thrusts
 
     def _agree(self, flown: Sequence[int]) -> None:
         """Let the integrators of quadrotors with shared loops agree: on one body they cannot be satisfied apart."""
