@@ -175,6 +175,23 @@ def test_one_that_was_disarmed_turns_its_rotors_once_it_is_armed_or_after_all_ha
     assert pair.state(0).position[2] == pytest.approx(0.5, abs=0.05)
 
 
+def test_a_disarming_in_the_middle_of_a_control_step_is_kept(pair, monkeypatch):
+    """Commands come from the threads of servers at any time."""
+    pair.seconds(1.0, lambda: pair.both(hover()))
+    inner = pair.quads._groups[0].inner
+    moment = inner.moment
+
+    def interrupted(*arguments):
+        pair.quads.disarm(0)
+        return moment(*arguments)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(inner, "moment", interrupted)
+        pair.flight.step(2)
+    pair.seconds(0.05, lambda: pair.devices[1].receive(hover()), every=0.05)
+    assert sum(pair.state(0).thrusts) == 0.0 < sum(pair.state(1).thrusts)
+
+
 def test_an_emergency_stop_is_for_good(pair):
     pair.seconds(3.0, lambda: pair.both(hover(height=0.2)))
     pair.both(EMERGENCY)
