@@ -61,3 +61,13 @@ def pair():
 def pairs():
     """Makes a pair with other control or other keys."""
     return Pair
+
+
+@pytest.fixture
+def world():
+    """Two X500 that stand on the floor, and a MAVLink client of each."""
+    from mavlink_world import World
+
+    made = World()
+    yield made
+    made.close()

@@ -8,6 +8,7 @@ import pytest
 from scipy.interpolate import BPoly
 
 from tandemlift.apps.clients.quadrotors import ArmingState
+from tandemlift.apps.clients.setpoints import AttitudeSetpoint
 
 
 def header(port, channel):
@@ -129,6 +130,68 @@ def test_a_client_that_vanishes_is_levelled_out_after_half_a_second_and_stopped_
     assert bits(pair.devices[0]) & 0x40
 
 
+@pytest.mark.parametrize("other", ["armed, and stops", "disarmed, and is sent positions"])
+def test_a_lost_client_is_a_loss_whatever_the_other_one_sends_that_flies_nothing(pair, other):
+    stops = other == "armed, and stops"
+    packet = header(7, 0) + (b"\0" if stops else struct.pack("<Bffff", 7, 0.0, -0.25, 0.5, 0.0))
+    if not stops:
+        pair.devices[1].receive(DISARM)
+    pair.seconds(4.0, lambda: [pair.devices[0].receive(hover()), pair.devices[1].receive(packet)])
+    assert pair.state().position[2] == pytest.approx(0.5, abs=0.05)
+    pair.seconds(1.5, lambda: pair.devices[1].receive(packet))
+    assert pair.quads.supervision[0] is ArmingState.WARNING
+    assert pair.state().position[2] == pytest.approx(0.5, abs=0.05)
+    pair.seconds(0.6, lambda: pair.devices[1].receive(packet))
+    assert pair.quads.supervision[0] is ArmingState.LOCKED
+
+
+@pytest.mark.parametrize("stop", [DISARM, EMERGENCY])
+def test_one_that_is_disarmed_in_flight_stops_its_rotors_and_the_other_keeps_to_its_own_thrust(pair, stop):
+    pair.seconds(4.0, lambda: pair.both(hover(height=1.0)))
+    weight = pair.quads.vehicle.weight / 2.0
+    pair.devices[0].receive(stop)
+    for _ in range(30):
+        pair.quads.command(1, AttitudeSetpoint(0.0, 0.0, weight))
+        pair.flight.step(10)
+        assert pair.state(0).thrusts == (0.0,) * 4
+        assert sum(pair.state(1).thrusts) < 1.01 * weight
+    assert pair.state(0).position[2] < pair.state(1).position[2] - 0.05
+    assert pair.state(0).velocity[2] < -0.5
+
+
+def test_one_that_was_disarmed_turns_its_rotors_once_it_is_armed_or_after_all_have_stood(pair):
+    pair.seconds(3.0, lambda: pair.both(hover(height=0.5)))
+    pair.devices[0].receive(DISARM)
+    pair.seconds(0.05, lambda: pair.devices[1].receive(hover(height=0.5)), every=0.05)
+    assert sum(pair.state(0).thrusts) == 0.0
+    pair.devices[0].receive(ARM)
+    pair.seconds(4.0, lambda: pair.devices[1].receive(hover(height=0.5)))
+    assert pair.state(0).position[2] == pytest.approx(0.5, abs=0.05)
+    pair.seconds(4.0, lambda: pair.devices[1].receive(hover(height=0.0)))
+    pair.both(header(7, 0) + b"\0")
+    pair.seconds(0.5)
+    pair.devices[0].receive(DISARM)  # on the floor: the other one carries it again
+    pair.seconds(4.0, lambda: pair.devices[1].receive(hover(height=0.5)))
+    assert pair.state(0).position[2] == pytest.approx(0.5, abs=0.05)
+
+
+def test_a_disarming_in_the_middle_of_a_control_step_is_kept(pair, monkeypatch):
+    """Commands come from the threads of servers at any time."""
+    pair.seconds(1.0, lambda: pair.both(hover()))
+    inner = pair.quads._groups[0].inner
+    moment = inner.moment
+
+    def interrupted(*arguments):
+        pair.quads.disarm(0)
+        return moment(*arguments)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(inner, "moment", interrupted)
+        pair.flight.step(2)
+    pair.seconds(0.05, lambda: pair.devices[1].receive(hover()), every=0.05)
+    assert sum(pair.state(0).thrusts) == 0.0 < sum(pair.state(1).thrusts)
+
+
 def test_an_emergency_stop_is_for_good(pair):
     pair.seconds(3.0, lambda: pair.both(hover(height=0.2)))
     pair.both(EMERGENCY)
@@ -171,6 +234,45 @@ def test_it_takes_off_goes_and_lands_on_paths_of_least_jerk_at_the_ends(pair):
     pair.seconds(3.0)
     assert not pair.quads.is_flying(0)
     assert bits(device) >> 8 == 0b100
+
+
+def takeoff(height, duration):
+    return header(8, 0) + struct.pack("<BBff?f", 7, 0, height, 0.0, True, duration)
+
+
+def test_a_stop_of_the_high_level_commander_stands_the_rotors_without_a_lock(pair):
+    """Also a little before a landing has ended, as scripts do that sleep for its duration."""
+    pair.both(takeoff(0.3, 1.0))
+    pair.seconds(2.0)
+    pair.both(header(8, 0) + struct.pack("<BBff?f", 8, 0, 0.0, 0.0, True, 1.0))
+    pair.seconds(0.98)
+    pair.both(header(8, 0) + b"\x03\x00")
+    pair.seconds(0.01)
+    assert sum(pair.state().thrusts) == 0.0
+    pair.seconds(2.5)
+    assert pair.quads.supervision == [ArmingState.ARMED] * 2
+    assert [answers[0][-1] for answers in pair.both(takeoff(0.3, 1.0))] == [0, 0]
+    pair.seconds(2.0)
+    assert pair.state().position[2] == pytest.approx(0.3, abs=0.05)
+
+
+def test_high_level_commands_are_refused_while_disarmed_and_dropped_by_a_disarming(pair):
+    device = pair.devices[0]
+    pair.both(DISARM)
+    assert [answers[0][-1] for answers in pair.both(takeoff(1.0, 2.0))] == [16, 16]  # EBUSY
+    assert device.receive(header(8, 0) + b"\x03\x00")[0][-1] == 0
+    pair.both(ARM)
+    pair.seconds(0.5)
+    assert not pair.quads.is_flying(0)
+    pair.both(takeoff(0.3, 1.0))
+    pair.seconds(0.2)
+    pair.both(DISARM)
+    pair.seconds(1.0)
+    assert device.plan is None
+    pair.both(ARM)
+    pair.seconds(1.0)
+    assert not pair.quads.is_flying(0)
+    assert pair.state().position[2] < 0.05
 
 
 def test_an_uploaded_trajectory_is_flown_and_what_is_not_there_is_refused(pair):

@@ -1,7 +1,9 @@
 """States as MAVLink messages and messages as setpoints, packed and read by pymavlink, beside rotations by SciPy."""
 
+import ast
 import itertools
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,6 +11,7 @@ from pymavlink.dialects.v20 import common as mavlink
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
+from tandemlift.apps.clients.mavlink import messages, modes, parameters, vehicles
 from tandemlift.apps.clients.mavlink.messages import RATES, attitude_setpoint, message, position_setpoint
 from tandemlift.apps.clients.mavlink.modes import HOLD, OFFBOARD, PARAMETERS, Autopilot
 from tandemlift.apps.clients.setpoints import (
@@ -149,6 +152,8 @@ def test_what_is_not_masked_is_flown():
     assert of(all_but & ~velocity, v=v, frame=8) == VelocitySetpoint(motion, heading=True)
     both = FullStateSetpoint(place, motion, (0.0, 0.0, 0.0), 0.7)
     assert of(all_but & ~position & ~velocity, p=p, v=v) == both
+    level = of(IGNORED & ~velocity & ~acceleration & ~(1 << 9), v=v, a=(0.0,) * 3)
+    assert level == VelocitySetpoint(motion)
     whole = of(all_but & ~position & ~velocity & ~acceleration & ~yaw, p=p, v=v, a=a, yaw=0.4)
     assert whole == FullStateSetpoint(place, motion, push, -0.4)
 
@@ -181,9 +186,49 @@ def test_an_attitude_that_cannot_be_flown_is_refused(m):
         position_target(0b1101_1111_1000, p=(0.0, 0.0, 0.0), frame=3),
         position_target(0b1101_1111_1100, p=(0.0, 0.0, 0.0)),
         position_target(0b1001_1111_1000, p=(0.0, 0.0, 0.0)),  # yaw NaN
-        position_target(0b1111_1111_1000, p=(0.0, 0.0, 0.0)),  # a force
+        position_target(0b1110_0011_1000, p=(0.0, 0.0, 0.0), a=(0.0, 0.0, 1.0)),  # a force
     ],
 )
 def test_a_position_or_velocity_that_cannot_be_flown_is_refused(m):
     with pytest.raises(tl.InputError):
         position_setpoint(m, ORIGIN, 0.0)
+
+
+@pytest.mark.parametrize("mask", [0b1111_1111_1000, 0b1111_1100_0111])
+def test_a_bit_of_force_without_an_acceleration_means_nothing(mask):
+    """Many scripts set all bits but those of what they send."""
+    setpoint = position_setpoint(position_target(mask, p=(1.0, 0.0, -3.0), v=(1.0, 0.0, 0.0)), (0.0,) * 3, 0.0)
+    assert setpoint in (PositionSetpoint((1.0, 0.0, 3.0), None), VelocitySetpoint((1.0, 0.0, 0.0)))
+
+
+@pytest.mark.parametrize(
+    ("text", "m"),
+    [
+        ("position: all of x, y, z, or none", position_target(0b1101_1100_0011, (0.0,) * 3, (1.0, 0.0, 0.0))),
+        ("velocity: all of x, y, z, or none", position_target(0b1101_1111_0000, (0.0,) * 3, (1.0, 0.0, 0.0))),
+        ("acceleration: only with a position", position_target(0b1100_0000_0111, v=(0.0,) * 3, a=(1.0, 0.0, 0.0))),
+        ("yaw rate: only with a velocity alone", position_target(0b0101_1111_1000, (0.0,) * 3, rate=0.5)),
+        ("rates: none beside an attitude", attitude_target(0b011, rates=(NAN, NAN, 0.5))),
+    ],
+)
+def test_what_would_be_left_out_is_refused_by_its_name(text, m):
+    with pytest.raises(tl.InputError) as refused:
+        attitude_setpoint(m, 40.0) if "ATTITUDE" in m.get_type() else position_setpoint(m, ORIGIN, 0.0)
+    assert str(refused.value) == text
+
+
+def refusals(module):
+    """The texts with which a module refuses, with the longest names, and three digits for numbers."""
+    longest = {"name": "N" * 16, "what": "acceleration", "mode.name": "take-off"}
+    for call in ast.walk(ast.parse(Path(module.__file__).read_text("utf-8"))):
+        if isinstance(call, ast.Call) and ast.unparse(call.func) in ("InputError", "vehicle.say"):
+            parts = getattr(call.args[0], "values", call.args)
+            named = (getattr(part, "value", None) for part in parts)
+            yield "".join(v if isinstance(v, str) else longest.get(ast.unparse(v), "100") for v in named if v)
+
+
+def test_every_refusal_fits_into_a_statustext():
+    texts = [text for module in (messages, modes, parameters, vehicles) for text in refusals(module)]
+    texts += [vehicles.TUMBLED]
+    assert len(texts) > 20
+    assert [text for text in texts if len(text) > 50] == []

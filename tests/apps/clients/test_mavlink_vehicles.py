@@ -5,165 +5,19 @@ import random
 import re
 import socket
 import struct
-from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from mavlink_world import ACCEPTED, ARM, ONLY_VELOCITY, REJECTED, Client, free_ports
 from pymavlink.dialects.v20 import common as mavlink
 
 import tandemlift as tl
-from tandemlift.apps.clients.flight import SteppedFlight, quadrotors_of
 from tandemlift.apps.clients.mavlink.modes import HOLD, LAND, OFFBOARD, TAKEOFF
 from tandemlift.apps.clients.mavlink.parameters import name_of
 from tandemlift.apps.clients.mavlink.vehicles import MavlinkVehicles
 from tandemlift.apps.live.session.parameters import tunables_of, value_of
 from tandemlift.missions import tables_of
 from tandemlift.missions.changes import MISSING
-
-ONLY_POSITION, ONLY_VELOCITY = 0b1101_1111_1000, 0b1101_1100_0111
-ACCEPTED, REJECTED = mavlink.MAV_RESULT_ACCEPTED, mavlink.MAV_RESULT_TEMPORARILY_REJECTED
-ARM = mavlink.MAV_CMD_COMPONENT_ARM_DISARM
-
-
-def free_ports():
-    """The first of two ports, of which none is in use, nor 40 above."""
-    while True:
-        port = random.SystemRandom().randrange(20000, 60000)
-        try:
-            for p in (port, port + 1, port + 40, port + 41):
-                with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as s:
-                    s.bind(("127.0.0.1", p))
-        except OSError:
-            continue
-        return port
-
-
-class Client:
-    """A client of one vehicle, by pymavlink's packets; `port` is its own, any if 0."""
-
-    def __init__(self, system, vehicle_port, port=0):
-        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self.socket.bind(("127.0.0.1", port))
-        self.socket.setblocking(False)
-        self.system, self._to, self.got = system, ("127.0.0.1", vehicle_port), []
-        self._mav = mavlink.MAVLink(self, srcSystem=245, srcComponent=190)
-
-    def write(self, data):
-        self.socket.sendto(data, self._to)
-
-    def send(self, name, *values):
-        getattr(self._mav, f"{name}_send")(*values)
-
-    def command(self, command, *p):
-        self.send("command_long", self.system, 1, command, 0, *p, *[math.nan] * (7 - len(p)))
-
-    def mode(self, mode):
-        self.command(mavlink.MAV_CMD_DO_SET_MODE, 1, mode.main, mode.sub)
-
-    def go_to(self, north, east, down, yaw=0.0):
-        p = (north, east, down), (0.0,) * 6
-        self.send(
-            "set_position_target_local_ned", 0, self.system, 1, 1, ONLY_POSITION & ~(1 << 10), *p[0], *p[1], yaw, 0
-        )
-
-    def receive(self):
-        while True:
-            try:
-                data = self.socket.recv(2048)
-            except BlockingIOError:
-                return
-            self.got += mavlink.MAVLink(None).parse_buffer(data)
-
-    def last(self, kind):
-        """The last message of a type."""
-        self.receive()
-        return next((m for m in reversed(self.got) if m.get_type() == kind), None)
-
-    def texts(self):
-        self.receive()
-        return [m.text for m in self.got if m.get_type() == "STATUSTEXT"]
-
-
-@dataclass
-class Number:
-    """A number of a mission, in no flight."""
-
-    value: float
-
-    def read(self):
-        return self.value
-
-    def take(self, value):
-        self.value = value if value < 8.0 else self.value
-        return value < 8.0
-
-
-class World:
-    """Two X500 and their clients."""
-
-    def __init__(self):
-        self.port = free_ports()
-        self.keys = {f"wind.velocity_{n}": Number(float(n)) for n in (1, 2, 3)}
-        changes = {"pushes": [], "phases.land_start": 3000.0, "mission.duration": 3600.0}
-        mission = tl.load_mission("two-x500", changes)
-        self.quadrotors = quadrotors_of(mission)
-        self.vehicles = MavlinkVehicles(self.quadrotors, port=self.port).__enter__()
-        self.vehicles.keys, self.vehicles.readings = self.keys, {"joint_force.1": lambda: 1.25}
-        self.flight = SteppedFlight(mission, self.quadrotors)
-        self.clients = [Client(i + 1, self.port + 40 + i, self.port + i) for i in range(2)]
-        self.fly(0.1)
-
-    def fly(self, seconds, every=0.05, each=None):
-        """Fly, and call `each` between."""
-        for _ in range(round(seconds / every)):
-            if each:
-                each()
-            self.flight.step(round(every / 0.001))
-            for client in self.clients:
-                client.receive()
-        assert not self.flight.simulation.over
-
-    def result(self, client, command):
-        """The result of the last command."""
-        self.fly(0.01, 0.01)
-        ack = client.last("COMMAND_ACK")
-        assert (ack.command, ack.target_system, ack.target_component) == (command, 245, 190)
-        return ack.result
-
-    @property
-    def modes(self):
-        return [v.autopilot.mode for v in self.vehicles.vehicles]
-
-    @property
-    def armed(self):
-        return [v.autopilot.armed for v in self.vehicles.vehicles]
-
-    @property
-    def heights(self):
-        return [self.quadrotors.state(i).position[2] - 0.041 for i in range(2)]
-
-    def take_off(self, height=1.0):
-        for client in self.clients:
-            client.command(ARM, 1)
-            client.command(mavlink.MAV_CMD_NAV_TAKEOFF, *[math.nan] * 6, height)
-        self.fly(height / 0.7 + 1.5)
-        assert self.modes == [HOLD, HOLD]
-
-    def offboard(self, each, seconds=2.0):
-        for client in self.clients:
-            each(client)
-            client.mode(OFFBOARD)
-        self.fly(seconds, each=lambda: [each(client) for client in self.clients])
-        assert self.modes == [OFFBOARD, OFFBOARD]
-
-
-@pytest.fixture
-def world():
-    made = World()
-    yield made
-    made.vehicles.__exit__()
-    for client in made.clients:
-        client.socket.close()
 
 
 def test_both_take_off_fly_to_a_position_land_and_disarm(world):
@@ -191,23 +45,6 @@ def test_both_take_off_fly_to_a_position_land_and_disarm(world):
     assert world.armed == [False, False]
     assert client.last("EXTENDED_SYS_STATE").landed_state == 1
     assert world.clients[0].last("COMMAND_ACK").get_srcSystem() == 1
-
-
-@pytest.mark.parametrize(("action", "mode"), [(4, LAND), (5, HOLD)])
-def test_if_the_setpoints_of_one_cease_both_land_or_hold(world, action, mode):
-    world.take_off()
-    for client in world.clients:
-        value = struct.unpack("<f", struct.pack("<i", action))[0]
-        client.send("param_set", client.system, 1, b"COM_OBL_RC_ACT", value, mavlink.MAV_PARAM_TYPE_INT32)
-    world.offboard(lambda client: client.go_to(0.0, 0.0, -1.0))
-    world.fly(0.9, each=lambda: world.clients[0].go_to(0.0, 0.0, -1.0))
-    assert world.modes == [OFFBOARD, OFFBOARD]  # the second one's client is gone, and its time is not over
-    world.fly(0.3, each=lambda: world.clients[0].go_to(0.0, 0.0, -1.0))
-    assert world.modes == [mode, mode]
-    assert f"system 2 has no setpoints: {mode.name}" in world.clients[0].texts()
-    world.fly(4.0, each=lambda: world.clients[0].go_to(0.0, 0.0, -1.0))
-    assert world.armed == [mode is HOLD] * 2
-    np.testing.assert_allclose(world.heights, 1.0 if mode is HOLD else 0.0, atol=0.05)
 
 
 def test_a_second_client_hears_all_and_flies_only_once_the_first_is_gone(world):
@@ -260,7 +97,7 @@ def packets(kind, rng):
     made = rng.choice(list(mavlink.mavlink_map.values()))
     if kind == "for us":
         handled = ("command_long", "set_mode", "param_set", "param_request_read", "set_attitude_target", "timesync")
-        handled += ("set_position_target_local_ned",)
+        handled += ("set_position_target_local_ned", "command_int", "mission_request_list", "mission_count")
         made = getattr(mavlink, f"MAVLink_{rng.choice(handled)}_message")
     size = made.unpacker.size
     payload = bytearray(rng.randbytes(size))
@@ -347,7 +184,7 @@ def test_names_of_keys_and_channels_are_short_and_different(mission):
 
 def test_messages_come_at_the_rates_that_are_asked_for(world):
     client, kind = world.clients[0], mavlink.MAVLINK_MSG_ID_ATTITUDE
-    for interval, rate in ((1e4, 100), (0.0, 50), (-1.0, 0)):
+    for interval, rate in ((1e4, 100), (0.0, 50), (600e6, 1), (2e4, 50), (-1.0, 0)):
         client.command(mavlink.MAV_CMD_SET_MESSAGE_INTERVAL, kind, interval)
         assert world.result(client, mavlink.MAV_CMD_SET_MESSAGE_INTERVAL) == ACCEPTED
         client.got.clear()
@@ -360,6 +197,29 @@ def test_messages_come_at_the_rates_that_are_asked_for(world):
     assert world.result(client, mavlink.MAV_CMD_DO_ORBIT) == mavlink.MAV_RESULT_UNSUPPORTED
 
 
+def test_what_is_not_done_is_answered(world):
+    client = world.clients[0]
+    client.send("command_int", 1, 1, 0, mavlink.MAV_CMD_DO_REPOSITION, 0, 0, *[0.0] * 4, 0, 0, 0.0)
+    assert world.result(client, mavlink.MAV_CMD_DO_REPOSITION) == mavlink.MAV_RESULT_UNSUPPORTED
+    client.send("mission_request_list", 1, 1)
+    client.send("mission_count", 1, 1, 3)
+    client.send("set_position_target_global_int", 0, 1, 1, 6, ONLY_VELOCITY, 0, 0, *[0.0] * 9)
+    world.fly(0.01, 0.01)
+    count, ack = client.last("MISSION_COUNT"), client.last("MISSION_ACK")
+    assert (count.count, count.target_system, count.target_component) == (0, 245, 190)
+    assert (ack.type, ack.target_system) == (mavlink.MAV_MISSION_UNSUPPORTED, 245)
+    assert "global positions: send local ones" in client.texts()
+
+
+def test_the_clock_is_that_of_the_stamps(world):
+    client = world.clients[0]
+    client.send("timesync", 0, 12345)
+    world.fly(0.1)
+    answer, stamp = client.last("TIMESYNC"), client.last("ATTITUDE").time_boot_ms
+    assert answer.ts1 == 12345
+    assert 1e-6 * answer.tc1 == pytest.approx(stamp, abs=110.0)
+
+
 def test_a_port_in_use_is_named_and_the_other_one_released(world):
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
         port = free_ports()
@@ -368,16 +228,6 @@ def test_a_port_in_use_is_named_and_the_other_one_released(world):
             MavlinkVehicles(world.quadrotors, port=port).__enter__()
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
             free.bind(("127.0.0.1", port + 40))
-
-
-def test_by_force_the_rotors_stop_in_the_air(world):
-    world.take_off()
-    world.clients[0].command(ARM, 0, 21196)
-    world.clients[1].command(ARM, 0, 21196)
-    world.fly(0.1)
-    assert world.armed == [False, False]
-    assert not world.quadrotors.is_flying(0)
-    assert not world.quadrotors.is_flying(1)
 
 
 def test_a_climb_by_the_mode_uses_the_height_of_the_parameter(world):

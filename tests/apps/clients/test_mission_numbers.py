@@ -3,6 +3,7 @@
 import math
 import threading
 from types import SimpleNamespace
+from typing import ClassVar
 
 import pytest
 from patience import joined, until
@@ -53,5 +54,27 @@ def test_a_flood_of_changes_is_refused_until_some_are_made(flight):
     taken = [x.take(0.01 * i) for i in range(100)]
     assert taken == [True] * 8 + [False] * 92
     flight.go.set()
-    until(lambda: len(flight.made) == 8, "the changes")
+    until(lambda: flight.made[-1:] == [("wind.velocity", (0.07, 2.0, 3.0))], "the last change that was taken")
     until(lambda: x.take(5.0), "a change once others are made")
+
+
+class LateThread(threading.Thread):
+    """A thread that runs when the test says so."""
+
+    made: ClassVar = []
+
+    def start(self):
+        self.made.append(self)
+
+
+def test_of_two_changes_the_later_one_counts_whichever_thread_is_the_first(flight, monkeypatch):
+    flight.go.set()
+    x = next(one for _, _, one in mission_numbers(flight))
+    with monkeypatch.context() as late:
+        late.setattr(threading, "Thread", LateThread)
+        assert x.take(4.0)
+        assert x.take(5.0)
+    for thread in reversed(LateThread.made):
+        thread.run()
+    assert x.read() == 5.0
+    assert flight.made == [("wind.velocity", (5.0, 2.0, 3.0))]

@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
-from two_flight_controllers import ERROR, HEIGHT, errors_of, hover
+from two_flight_controllers import ERROR, errors_of, hover
 
-from tandemlift.apps.clients.quadrotors import ArmingState, FailSafe
+from tandemlift.apps.clients.cascade import Demand
+from tandemlift.apps.clients.one_body import together
 from tandemlift.apps.clients.setpoints import EstimateError, PositionSetpoint, QuadrotorState
 
 
@@ -24,6 +25,17 @@ def test_own_loops_wind_up_against_each_other_until_the_vehicle_is_lost():
     assert flight.against.max() > 1e-3
 
 
+@pytest.mark.parametrize(("apart", "yaw"), [(0.5, 0.7), (0.3, 0.7), (0.02, 0.4), (0.0, 0.4)])
+def test_targets_turn_the_body_unless_they_are_together(apart, yaw):
+    """Two targets along a line at 0.7 rad, of quadrotors that ask for yaws of 0.3 and 0.5 rad."""
+    c, s = 0.5 * apart * np.cos(0.7), 0.5 * apart * np.sin(0.7)
+    demands = [
+        Demand(1.0, yaw=0.3, target=(3.0 + c, 4.0 + s, 1.0)),
+        Demand(1.0, yaw=0.5, target=(3.0 - c, 4.0 - s, 1.0)),
+    ]
+    assert together(demands, [(0.25, 0.0, 0.0), (-0.25, 0.0, 0.0)]).yaw == pytest.approx(yaw)
+
+
 def test_an_error_of_an_estimate_is_that_rotation():
     state = QuadrotorState(0.0, (1.0, 2.0, 3.0), (0.0,) * 3, (1.0, 0.0, 0.0, 0.0), (0.0,) * 3, (0.0,) * 3, (0.0,) * 4)
     estimate = ERROR.of(state)
@@ -39,17 +51,6 @@ def fly_to(pair, height, seconds):
     targets = [(x, y, height) for x, y, _ in pair.quads.vehicle.lever_arms.tolist()]
     pair.seconds(seconds, lambda: [pair.quads.command(i, PositionSetpoint(t, 0.0)) for i, t in enumerate(targets)])
     return targets
-
-
-def test_a_fail_safe_that_sinks_lands_and_disarms(pairs):
-    pair = pairs("shared", FailSafe(level=1.0, sink=0.3))
-    fly_to(pair, 0.6, 6.0)
-    assert pair.state().position[2] == pytest.approx(0.6, abs=0.03)
-    pair.seconds(8.0)
-    assert pair.quads.supervision == [ArmingState.DISARMED] * 2
-    assert pair.flight.simulation.ending is None
-    assert abs(pair.state().velocity[2]) < 1e-3
-    assert HEIGHT > 0.6 > pair.state().position[2]
 
 
 def test_a_vehicle_whose_quadrotors_have_own_loops_hovers_where_nothing_is_off(pairs):

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift import Mission, Simulation
-from tandemlift.apps.clients.quadrotors import CRAZYFLIE, Control, FailSafe, Quadrotors
+from tandemlift import InputError, Mission, Simulation
+from tandemlift.apps.clients.quadrotors import Control, Quadrotors
 from tandemlift.apps.clients.setpoints import EstimateError
 from tandemlift.apps.live.session.frames import channel_columns
 from tandemlift.apps.live.session.session import Session
@@ -17,15 +17,30 @@ from tandemlift.apps.live.session.session import Session
 # settings of a mission whose own pilot, which decides nothing, needs no sensors, no tare and no hands off
 PILOT_ASIDE = ("pilot.push=truth", "pilot.state=truth", "contact.model=none")
 BODY = ("position", "velocity", "attitude", "rates")  # channels of a state (13,)
+HIGHEST = 0.02  # m, of the feet above the floor at the start
 BEFORE_THRUSTS, AFTER_OVERRIDE = 6, 4  # numbers of a `CallerInput`: force and point; a velocity and whether it counts
 
 
-def quadrotors_of(
-    mission: Mission, control: Control = "shared", fail_safe: FailSafe = CRAZYFLIE, errors: Sequence[EstimateError] = ()
-) -> Quadrotors:
+def quadrotors_of(mission: Mission, control: Control = "shared", errors: Sequence[EstimateError] = ()) -> Quadrotors:
     """The quadrotors of a mission's vehicle."""
     hover = mission.hover
-    return Quadrotors(hover.vehicle, hover.response_time, mission.mission.step, control, fail_safe, errors)
+    return Quadrotors(hover.vehicle, hover.response_time, mission.mission.step, control, errors)
+
+
+def check_stands(mission: Mission) -> None:
+    """Check that the vehicle stands on a floor: rotors stand until a client arms them.
+
+    Raises:
+        InputError: it would fall.
+    """
+    given, feet = mission.ground, mission.initial.position[2] + float(mission.hover.vehicle.soles[..., 2].min())
+    if given.model != "floor":
+        wrong = f'ground.model = "{given.model}": must be "floor"'
+    elif given.height is not None and feet > given.height + HIGHEST:
+        wrong = f"ground.height = {given.height}: must be unset, or at the feet"
+    else:
+        return
+    raise InputError(f"{mission.mission.name}: {wrong}, as the vehicle stands until a client arms its rotors")
 
 
 class SteppedFlight:
@@ -62,9 +77,13 @@ class RealTimeFlight:
 
     Attributes:
         session: for `apps.live.server`; prepared.
+
+    Raises:
+        InputError: the vehicle does not stand on a floor.
     """
 
     def __init__(self, mission: Mission, quadrotors: Quadrotors, engine: str, out: Path) -> None:
+        check_stands(mission)
         self._quadrotors, self._thrusts = quadrotors, slice(BEFORE_THRUSTS, BEFORE_THRUSTS + 4 * quadrotors.count)
         self._inputs = np.zeros(self._thrusts.stop + 1 + AFTER_OVERRIDE)
         self._inputs[self._thrusts.stop] = 1.0  # the thrusts count

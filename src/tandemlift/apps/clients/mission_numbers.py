@@ -29,7 +29,7 @@ class MissionNumber:
         return self._numbers()[self._n] if asked is None else asked
 
     def take(self, number: float) -> bool:
-        """Change it in flight, in a thread, as that may compile.
+        """Change it in flight, in a thread, as that may compile; of several numbers, to the last one.
 
         It returns False for a number that is out of bounds, or if too many changes wait.
         """
@@ -37,7 +37,7 @@ class MissionNumber:
         if not (math.isfinite(number) and low <= number <= high and PENDING.acquire(blocking=False)):
             return False
         self._asked = number
-        threading.Thread(target=self._change, args=(number,), daemon=True).start()
+        threading.Thread(target=self._change, daemon=True).start()
         return True
 
     def _numbers(self) -> list[float]:
@@ -47,18 +47,23 @@ class MissionNumber:
             return [value]
         return list(value if isinstance(value, list) else self._first)
 
-    def _change(self, number: float) -> None:
+    def _change(self) -> None:
+        """Make the change that was asked for last, unless another thread has made it."""
         session = self._flight.session
         try:
             with session.turn, suppress(InputError):  # it has no effect in this mission, or the flight is over
-                numbers = self._numbers()
-                numbers[self._n] = number
-                value = tuple(numbers) if len(numbers) > 1 else number
-                session.apply(SetMessage(seq=0, key=self._shown["key"], value=value))
+                if (number := self._asked) is None:
+                    return
+                try:
+                    numbers = self._numbers()
+                    numbers[self._n] = number
+                    value = tuple(numbers) if len(numbers) > 1 else number
+                    session.apply(SetMessage(seq=0, key=self._shown["key"], value=value))
+                finally:
+                    if self._asked == number:
+                        self._asked = None
         finally:
             PENDING.release()
-            if self._asked == number:
-                self._asked = None
 
 
 def mission_numbers(flight: RealTimeFlight) -> Iterator[tuple[str, str, MissionNumber]]:

@@ -11,6 +11,8 @@ from tandemlift import Vehicle
 from tandemlift.apps.clients.cascade import Demand, InnerLoops, LoopGains
 from tandemlift.apps.clients.setpoints import Vector
 
+NEARER = 0.1  # of the distance of quadrotors: targets that are nearer give no direction; chosen
+
 
 def vector(values: np.ndarray) -> Vector:
     """Three numbers."""
@@ -66,11 +68,15 @@ def together(demands: Sequence[Demand], arms: Sequence[Sequence[float]]) -> Dema
     roll, pitch = sum(d.roll for d in level) / len(level), sum(d.pitch for d in level) / len(level)
     yaw = math.atan2(sum(math.sin(d.yaw) for d in level), sum(math.cos(d.yaw) for d in level))
     aims = [(arm, d.target) for arm, d in zip(arms, demands, strict=True) if d.target is not None]
-    return Demand(thrust, roll, pitch, _yaw_through(aims) if len(aims) > 1 else yaw)
+    return Demand(thrust, roll, pitch, _yaw_through(aims, yaw) if len(aims) > 1 else yaw)
 
 
-def _yaw_through(aims: Sequence[tuple[Sequence[float], Vector]]) -> float:
-    """The yaw with which points of the body are nearest to their targets, in the plane (least squares)."""
+def _yaw_through(aims: Sequence[tuple[Sequence[float], Vector]], otherwise: float) -> float:
+    """The yaw with which points of the body are nearest to their targets, in the plane (least squares).
+
+    It is `otherwise` [rad] where targets are together, or lie such that no yaw is nearer.
+    """
     arms, targets = (np.array(points)[:, :2] for points in zip(*aims, strict=True))
     (a, b), (x, y) = (arms - arms.mean(axis=0)).T, (targets - targets.mean(axis=0)).T
-    return math.atan2(float(a @ y - b @ x), float(a @ x + b @ y))
+    sine, cosine = float(a @ y - b @ x), float(a @ x + b @ y)
+    return math.atan2(sine, cosine) if math.hypot(sine, cosine) > NEARER * float(a @ a + b @ b) else otherwise

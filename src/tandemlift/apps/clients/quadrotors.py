@@ -1,8 +1,9 @@
 """The quadrotors of one rigid vehicle, each armed, commanded and read by itself, as a client of a real one does.
 
 Each has a cascade of its own (`control = "own"`), whose integrators fight through the beam; or all share one pair of
-inner loops and one allocation ("shared"): thrusts add up, attitudes and yaws are averaged, and integrators agree. A
-supervisor stops a quadrotor whose setpoints no longer come, as the firmware does.
+inner loops and one allocation ("shared"): thrusts add up, attitudes and yaws are averaged, and integrators agree; one
+without a setpoint is carried, its rotors turn with the others', unless it was disarmed in flight. A supervisor stops a
+quadrotor whose setpoints no longer come, as the firmware does.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from enum import Enum
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 
@@ -23,24 +24,9 @@ Control = Literal["own", "shared"]
 INNER_EVERY, OUTER_EVERY = 0.002, 0.01  # s; crazyflie-firmware, stabilizer_types.h: ATTITUDE_RATE, POSITION_RATE
 AGREEMENT = 1.0  # s, in which integrators of quadrotors on one body agree; chosen
 TUMBLED = math.radians(90.0)  # beyond this tilt rotors stop
-SETTLING = 1.0  # s, after which a vehicle that sinks no more has landed
 IDLE = 0.05  # of the weight: more thrust than this is a flight
-
-
-class FailSafe(NamedTuple):
-    """The reaction to lost setpoints: after `level` [s] the quadrotor levels out, after `stop` [s] it stops.
-
-    With a `sink` [m/s], it sinks at this speed from `level` on, and stops once it stands.
-
-    The times of the Crazyflie are in crazyflie-firmware, commander.h: COMMANDER_WDT_TIMEOUT_STABILIZE, _SHUTDOWN.
-    """
-
-    level: float = 0.5
-    stop: float = 2.0
-    sink: float = 0.0
-
-
-CRAZYFLIE = FailSafe()
+# s without a setpoint, after which a quadrotor levels out, and stops; crazyflie-firmware, commander.h:
+LEVELS, STOPS = 0.5, 2.0  # COMMANDER_WDT_TIMEOUT_STABILIZE, COMMANDER_WDT_TIMEOUT_SHUTDOWN
 
 
 class ArmingState(Enum):
@@ -62,7 +48,6 @@ class Quadrotors:
         lag: time that rotors take to respond, with delay [s].
         step: of the flight [s].
         control: who closes the inner loops.
-        fail_safe: without setpoints.
         errors: of each quadrotor's estimate; none if empty.
 
     Attributes:
@@ -75,14 +60,13 @@ class Quadrotors:
         lag: float,
         step: float,
         control: Control = "shared",
-        fail_safe: FailSafe = CRAZYFLIE,
         errors: Sequence[sp.EstimateError] = (),
     ) -> None:
         if control not in ("own", "shared"):
             raise InputError(f"control = {control!r}: must be 'own' or 'shared'")
         self.vehicle, self.count, self.control = vehicle, vehicle.count, control
         self._errors = errors or [sp.EstimateError()] * self.count
-        self._fail_safe, self._every = fail_safe, max(round(INNER_EVERY / step), 1)
+        self._every = max(round(INNER_EVERY / step), 1)
         self._outer_every, self._dt = max(round(OUTER_EVERY / INNER_EVERY), 1), self._every * step
         gains = gains_for(lag + self._dt)
         each, self._arms = [q.thrust_limit for q in vehicle.quadrotors], vehicle.lever_arms.tolist()
@@ -99,6 +83,7 @@ class Quadrotors:
     def _begin(self) -> None:
         """Begin a flight: nothing is armed or commanded."""
         self.supervision = [ArmingState.DISARMED] * self.count
+        self._killed = set[int]()  # which were disarmed while their rotors turned, until all of the group stand
         self._setpoints: list[tuple[sp.Setpoint, float] | None] = [None] * self.count
         self._demands: list[Demand | None] = [None] * self.count
         self._flown: list[sp.Setpoint | None] = [None] * self.count
@@ -137,13 +122,16 @@ class Quadrotors:
         """Arm quadrotor `i`; whether it is."""
         if self.supervision[i] is ArmingState.DISARMED and not self.is_tumbled(i):
             self._setpoints[i], self.supervision[i] = None, ArmingState.ARMED
+            self._killed.discard(i)
         return self.is_armed(i)
 
     def disarm(self, i: int) -> None:
-        """Stop the rotors of quadrotor `i`, until it is armed again."""
+        """Stop the rotors of quadrotor `i`, until it is armed again or all rotors have stood still."""
         if self.supervision[i] is not ArmingState.LOCKED:
             self.supervision[i] = ArmingState.DISARMED
         self._setpoints[i] = None
+        if self._thrusts[4 * i : 4 * i + 4].any():
+            self._killed.add(i)
 
     def lock(self, i: int) -> None:
         """Stop the rotors of quadrotor `i` for good."""
@@ -200,39 +188,32 @@ class Quadrotors:
         """Find the setpoint of each quadrotor that is flown now, and lock those that must not fly on."""
         self._flown = [None] * self.count
         for group in self._groups:
-            heard = [commanded[1] for i in group.members if (commanded := self._setpoints[i])]
-            for i in group.members:
-                if self.is_armed(i) and self.is_tumbled(i):
+            armed = [i for i in group.members if self.is_armed(i)]
+            for i in armed:
+                if self.is_tumbled(i):
                     self.lock(i)
-                commanded = self._setpoints[i]
-                if not self.is_armed(i) or commanded is None or isinstance(commanded[0], sp.Stop):
-                    continue
-                setpoint, at = commanded
-                age = now - max([at, *heard])  # of the last one of any: a member without commands is no loss
-                if age <= self._fail_safe.level:
-                    self.supervision[i] = ArmingState.ARMED
-                    if now - at <= self._fail_safe.level:  # else it is carried, by what the others are commanded
+            commands = {i: c for i in armed if (c := self._setpoints[i]) and not isinstance(c[0], sp.Stop)}
+            for i, (setpoint, at) in commands.items():
+                age = now - max(at for _, at in commands.values())  # a member without commands is no loss
+                if age <= LEVELS:
+                    if self.supervision[i] is ArmingState.WARNING:
+                        self.supervision[i] = ArmingState.ARMED
+                    if now - at <= LEVELS:  # else it is carried, by what the others are commanded
                         self._flown[i] = setpoint
                 elif self.is_flying(i):
                     self._flown[i] = self._without_setpoint(i, setpoint, age)
 
     def _without_setpoint(self, i: int, last: sp.Setpoint, age: float) -> sp.Setpoint | None:
         """The setpoint of quadrotor `i` if none came for a time [s] after the `last` one; None: its rotors stop."""
-        safe, state = self._fail_safe, self._states[i]
-        if safe.sink:
-            if age > safe.level + SETTLING and abs(state.velocity[2]) < 0.2 * safe.sink:  # it stands
-                self.disarm(i)
-                return None
-            level: sp.Setpoint = sp.VelocitySetpoint((0.0, 0.0, -safe.sink))
-        elif age > safe.stop:
+        if age > STOPS:
             self.lock(i)
             return None
-        elif self.supervision[i] is ArmingState.WARNING:
-            level = self._levels[i]
-        elif isinstance(last, sp.AttitudeSetpoint | sp.RateSetpoint):
+        if self.supervision[i] is ArmingState.WARNING:
+            return self._levels[i]
+        if isinstance(last, sp.AttitudeSetpoint | sp.RateSetpoint):
             level = sp.AttitudeSetpoint(0.0, 0.0, last.thrust, height=getattr(last, "height", None))
         else:
-            level = sp.AttitudeSetpoint(0.0, 0.0, 0.0, height=state.position[2])
+            level = sp.AttitudeSetpoint(0.0, 0.0, 0.0, height=self._states[i].position[2])
         self.supervision[i], self._levels[i] = ArmingState.WARNING, level
         return level
 
@@ -245,20 +226,24 @@ class Quadrotors:
                 self._outer[i].reset()
             elif outer or self._demands[i] is None:
                 self._demands[i] = self._outer[i].demand(self._states[i], setpoint, OUTER_EVERY)
-        self._thrusts = np.zeros(4 * self.count)
+        thrusts = np.zeros(4 * self.count)
         for group in self._groups:
             flown = [(i, demand) for i in group.members if (demand := self._demands[i])]
             if not flown:
                 group.inner.reset()
+                self._killed.difference_update(group.members)
                 continue
             numbers, demands = zip(*flown, strict=True)
             self._agree(numbers)
             demand = together(demands, [self._arms[i] for i in numbers])
             moment = group.inner.moment(sp.mean_attitude([self._states[i] for i in numbers]), demand, self._dt)
+            turning = tuple(
+                self.supervision[i] is not ArmingState.LOCKED and i not in self._killed for i in group.members
+            )
             # a quadrotor without a setpoint is carried: the others' mean thrust stands for its share
-            wrench = (demand.thrust * len(group.members) / len(flown), *moment)
-            turning = tuple(self.supervision[i] is not ArmingState.LOCKED for i in group.members)
-            self._thrusts[group.rotors] = group.thrusts(wrench, turning, self._max[group.rotors])
+            wrench = (demand.thrust * sum(turning) / len(flown), *moment)
+            thrusts[group.rotors] = group.thrusts(wrench, turning, self._max[group.rotors])
+        self._thrusts = thrusts
 
     def _agree(self, flown: Sequence[int]) -> None:
         """Let the integrators of quadrotors with shared loops agree: on one body they cannot be satisfied apart."""

@@ -136,9 +136,8 @@ class Crazyflie:
             self.refused += 1
 
     def _high_level(self, data: bytes) -> int:
-        if not self._all.has_states:
-            return NO_ENTRY
-        return self._high.command(data, self._all.state(self._i))
+        may_fly = self._all.has_states and self._all.is_armed(self._i)
+        return self._high.command(data, self._all.state(self._i) if may_fly else None)
 
     # time
 
@@ -148,6 +147,7 @@ class Crazyflie:
             self._all.lock(self._i)
         if not self._all.is_armed(self._i):
             self._locked_thrust = True
+            self._high.stop()
         setpoint = None if now - self._low_level < PRIORITY else self._high.setpoint(now)
         if setpoint is not None:
             self._all.command(self._i, setpoint)

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.apps.clients.crazyflie.tables import NO_COMMAND, NO_ENTRY
+from tandemlift.apps.clients.crazyflie.tables import BUSY, NO_COMMAND, NO_ENTRY
 from tandemlift.apps.clients.setpoints import FullStateSetpoint, QuadrotorState, Setpoint, Stop
 
 MEMORY = 4096  # bytes of uploaded trajectories; crazyflie-firmware, TRAJECTORY_MEMORY_SIZE
@@ -62,7 +62,7 @@ def piece_between(start: Moment, end: Sequence[float], duration: float) -> Piece
 
 
 class Plan(NamedTuple):
-    """Pieces, from a time on [s]; after a landing the rotors stop."""
+    """Pieces, from a time on [s]; after a landing the rotors stop, at once if there are no pieces."""
 
     pieces: tuple[Piece, ...]
     begin: float
@@ -115,8 +115,8 @@ class HighLevelCommander:
         """Follow nothing more."""
         self.plan = None
 
-    def command(self, data: bytes, state: QuadrotorState) -> int:
-        """Carry out a command; 0, or the number of an error."""
+    def command(self, data: bytes, state: QuadrotorState | None) -> int:
+        """Carry out a command; 0, or the number of an error. `state`: None if it may not fly."""
         kind = data[0]
         if kind == 6:
             number, location, form, offset, count = struct.unpack("<BBBIB", data[1:])
@@ -130,9 +130,9 @@ class HighLevelCommander:
         if data[1] and not data[1] & self._group:
             return 0
         if kind == 3:
-            self.stop()
+            self.plan = Plan((), -math.inf, lands=True)
             return 0
-        return self._fly(kind, data[2:], state)
+        return BUSY if state is None else self._fly(kind, data[2:], state)
 
     def _fly(self, kind: int, data: bytes, state: QuadrotorState) -> int:
         """Begin to fly a path."""
@@ -152,7 +152,7 @@ class HighLevelCommander:
 
     def _start(self, state: QuadrotorState) -> Moment:
         """The begin of a path: on the present one, or at the quadrotor."""
-        if self.plan is not None:
+        if self.plan is not None and self.plan.pieces:
             return self.plan.at(state.time)
         return Moment((*state.position, state.euler[2]), (*state.velocity, 0.0), (0.0,) * 4)
 

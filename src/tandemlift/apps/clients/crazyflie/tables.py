@@ -14,7 +14,7 @@ from typing import Generic, TypeVar
 
 T = TypeVar("T")
 
-NO_ENTRY, TOO_LARGE, NO_COMMAND, NO_MEMORY, EXISTS, NO_ACCESS = 2, 7, 8, 12, 17, 13  # crtp_error_numbers.md
+NO_ENTRY, TOO_LARGE, NO_COMMAND, NO_MEMORY, NO_ACCESS, BUSY, EXISTS = 2, 7, 8, 12, 13, 16, 17  # crtp_error_numbers.md
 MOST_DATA, MOST_BLOCKS, MOST_VARIABLES, MOST_LOGGED = 30, 16, 128, 26
 LOG_TYPES = {"B": 1, "H": 2, "I": 3, "b": 4, "h": 5, "i": 6, "f": 7, "e": 8}  # by the format of `struct`
 LOG_FORMATS = {number: letter for letter, number in LOG_TYPES.items()}

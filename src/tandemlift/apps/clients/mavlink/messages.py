@@ -102,9 +102,12 @@ def attitude_setpoint(m: Any, max_thrust: float) -> sp.Setpoint:
     if m.type_mask & THRUST or (m.type_mask & ATTITUDE and m.type_mask & BODY_RATES):
         raise InputError("send a thrust, and an attitude or rates")
     thrust = max_thrust * max(0.0, min(1.0, *_finite("thrust", m.thrust)))
+    sent = enumerate((m.body_roll_rate, m.body_pitch_rate, m.body_yaw_rate))
+    rates = _finite("rates", *(0.0 if m.type_mask & 1 << n else rate for n, rate in sent))
     if m.type_mask & ATTITUDE:
-        rates = _finite("rates", m.body_roll_rate, m.body_pitch_rate, m.body_yaw_rate)
         return sp.RateSetpoint(turned(rates), thrust)
+    if any(rates):
+        raise InputError("rates: none beside an attitude")
     w, x, y, z = _finite("attitude", *m.q)
     norm = math.hypot(w, x, y, z)
     if not 0.5 < norm < 2.0:
@@ -114,32 +117,42 @@ def attitude_setpoint(m: Any, max_thrust: float) -> sp.Setpoint:
 
 
 def position_setpoint(m: Any, origin: sp.Vector, heading: float) -> sp.Setpoint:
-    """The setpoint of a SET_POSITION_TARGET_LOCAL_NED, or an `InputError`.
+    """The setpoint of a SET_POSITION_TARGET_LOCAL_NED, or an `InputError`: what would be left out is refused.
 
     It has a position, a velocity, or both and perhaps an acceleration. `origin` is that of local positions [m, world],
     `heading` that of the quadrotor [rad, world], which a trajectory without yaw keeps.
     """
     mask, frame = m.type_mask, m.coordinate_frame
+    position = _meant("position", mask, POSITION, m.x, m.y, m.z)
+    velocity = _meant("velocity", mask, VELOCITY, m.vx, m.vy, m.vz)
+    acceleration = _meant("acceleration", mask, ACCELERATION, m.afx, m.afy, m.afz)
     yaw = None if mask & YAW else -_finite("yaw", m.yaw)[0]
     rate = 0.0 if mask & YAW_RATE else -_finite("yaw rate", m.yaw_rate)[0]
-    velocity = sp.ZERO
-    if not mask & VELOCITY:
-        vx, vy, vz = turned(_finite("velocity", m.vx, m.vy, m.vz))
-        velocity = vx, vy, max(-FASTEST_DOWN, min(FASTEST_UP, vz))
-    if frame in BODY and not mask & VELOCITY and mask & POSITION == POSITION:
-        return sp.VelocitySetpoint(velocity, yaw, rate, heading=True)
-    if frame != LOCAL or mask & FORCE:
-        raise InputError("setpoints: in LOCAL_NED, or a velocity in BODY_NED; no force")
-    if not mask & POSITION:
-        x, y, z = turned(_finite("position", m.x, m.y, m.z))
-        place = origin[0] + x, origin[1] + y, origin[2] + z
-        if mask & VELOCITY and mask & ACCELERATION:
-            return sp.PositionSetpoint(place, yaw)
-        acceleration = sp.ZERO if mask & ACCELERATION else turned(_finite("acceleration", m.afx, m.afy, m.afz))
-        return sp.FullStateSetpoint(place, velocity, acceleration, heading if yaw is None else yaw)
-    if not mask & VELOCITY:
-        return sp.VelocitySetpoint(velocity, yaw, rate)
-    raise InputError("setpoints: a position, a velocity or both")
+    if acceleration and mask & FORCE:
+        raise InputError("acceleration: a force is not flown")
+    if frame != LOCAL and (position or frame not in BODY):
+        raise InputError("frame: LOCAL_NED, for a velocity also BODY_NED")
+    if velocity:
+        velocity = *velocity[:2], max(-FASTEST_DOWN, min(FASTEST_UP, velocity[2]))
+    if not position:
+        if not velocity:
+            raise InputError("setpoints: a position, a velocity or both")
+        if any(acceleration or ()):
+            raise InputError("acceleration: only with a position")
+        return sp.VelocitySetpoint(velocity, yaw, rate, heading=frame in BODY)
+    if yaw is None and rate:
+        raise InputError("yaw rate: only with a velocity alone")
+    place = sp.plus(origin, position)
+    if not velocity and not acceleration:
+        return sp.PositionSetpoint(place, yaw)
+    return sp.FullStateSetpoint(place, velocity or sp.ZERO, acceleration or sp.ZERO, heading if yaw is None else yaw)
+
+
+def _meant(what: str, mask: int, bits: int, *values: float) -> sp.Vector | None:
+    """A vector along the mission's axes, or None if a mask ignores all of it."""
+    if 0 < mask & bits < bits:
+        raise InputError(f"{what}: all of x, y, z, or none")
+    return None if mask & bits else turned(_finite(what, *values))
 
 
 def _finite(what: str, *values: float) -> tuple[float, ...]:

@@ -54,11 +54,12 @@ class Autopilot:
         state: the last one.
         origin: where it stood at the start [m, world].
         failsafe: the mode that lost setpoints have just led to, until the caller resets it to None.
+        crew: the autopilots of all quadrotors on the body, itself among them: armed ones land and disarm together.
     """
 
     def __init__(self, state: QuadrotorState, parameters: Mapping[str, float]) -> None:
         self.state, self.origin, self._parameters = state, state.position, parameters
-        self.armed = False
+        self.armed, self.crew = False, [self]
         self.failsafe: MavlinkMode | None = None
         self._setpoint: Setpoint = Stop()
         self._heard, self._sender = -math.inf, object()
@@ -71,8 +72,25 @@ class Autopilot:
 
     def enter(self, mode: MavlinkMode) -> None:
         """Begin a mode, here and with this yaw, whatever it needs."""
-        self.mode, self._settled, self._stands = mode, math.inf, not self.in_air
+        self.mode, self._settled, self._waits = mode, math.inf, mode is HOLD and not self.in_air
         self._target, self._yaw = self.state.position, self.state.euler[2]
+
+    def _enter_together(self, mode: MavlinkMode) -> MavlinkMode:
+        """Begin a mode with all that are armed, or land with those that do: targets must not pull on each other."""
+        armed = [one for one in self.crew if one.armed]
+        mode = LAND if any(one.mode is LAND for one in armed) else mode
+        for one in armed:
+            if one.mode is not LAND:
+                one.enter(mode)
+        return mode
+
+    def arm(self) -> None:
+        """Let the rotors turn, as soon as a mode asks for it; offboard, if that was chosen before."""
+        if not self.armed:
+            self.armed = True
+            if self.mode is HOLD:
+                self.enter(HOLD)
+                self._waits = True  # also in the air, where it is carried
 
     def disarm(self, *, force: bool) -> None:
         """Stop the rotors; in the air only by force, else an `InputError`."""
@@ -84,8 +102,8 @@ class Autopilot:
     def take_off(self, height: float | None = None) -> None:
         """Climb to a height above the start [m], that of the parameter if None, and hold; or an `InputError`."""
         height, (_, low, high) = self._parameters[HEIGHT] if height is None else height, PARAMETERS[HEIGHT]
-        if not self.armed or self.in_air:
-            raise InputError(f"take-off: {'in the air' if self.in_air else 'arm first'}")
+        if not self.armed or (self.in_air and not self._waits):
+            raise InputError(f"take-off: {'in the air' if self.armed else 'arm first'}")
         if not low <= height <= high:
             raise InputError(f"take-off: {low:g} to {high:g} m above the start")
         self._top = self.origin[2] + height
@@ -97,8 +115,10 @@ class Autopilot:
             self.take_off()
         elif mode is OFFBOARD and self._has_lost_setpoints():
             raise InputError("offboard: send setpoints first")
-        elif mode is LAND and not self.armed:
-            raise InputError("land: not armed")
+        elif mode is LAND:
+            if not self.armed:
+                raise InputError("land: not armed")
+            self._enter_together(LAND)
         else:
             self.enter(mode)
 
@@ -111,13 +131,12 @@ class Autopilot:
     def step(self, state: QuadrotorState) -> Setpoint:
         """The setpoint for the present state."""
         dt, self.state = state.time - self.state.time, state
-        self._stands = self._stands and not self.in_air
         if self.armed and self.mode is OFFBOARD and self._has_lost_setpoints():
-            self.failsafe = ACTIONS[self._parameters[LOSS_ACTION]]
-            self.enter(self.failsafe)
+            self.failsafe = self._enter_together(ACTIONS[self._parameters[LOSS_ACTION]])
         if self.mode is LAND and self._has_landed():
-            self.disarm(force=True)
-        if not self.armed or (self.mode is HOLD and self._stands):
+            for one in self.crew:
+                one.disarm(force=True)
+        if not self.armed or self._waits:
             return Stop()
         if self.mode is OFFBOARD:
             return self._setpoint

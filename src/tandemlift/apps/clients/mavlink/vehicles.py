@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 import socket
 import struct
-import time
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from typing import Any, Self
@@ -120,16 +119,25 @@ class MavlinkVehicle:
         """Do what a message asks for, or raise an `InputError`."""
         if getattr(m, "target_system", 0) not in (0, self.number) or getattr(m, "target_component", 0) not in (0, 1):
             return
-        autopilot, parameters = self.autopilot, self._parameters
+        autopilot, parameters, to = self.autopilot, self._parameters, (m.get_srcSystem(), m.get_srcComponent())
         match m.get_type():
             case "COMMAND_LONG":
                 self._answer(m, [m.param1, m.param2, m.param3, m.param4, m.param5, m.param6, m.param7])
+            case "COMMAND_INT":
+                self._acknowledge(m, mavlink.MAV_RESULT_UNSUPPORTED)
             case "SET_MODE":
                 self._switch(m.custom_mode >> 16 & 255, m.custom_mode >> 24)
             case "SET_ATTITUDE_TARGET":
                 autopilot.offer(attitude_setpoint(m, self._max_thrust), sender)
             case "SET_POSITION_TARGET_LOCAL_NED":
                 autopilot.offer(position_setpoint(m, autopilot.origin, autopilot.state.euler[2]), sender)
+            case "SET_POSITION_TARGET_GLOBAL_INT":
+                raise InputError("global positions: send local ones")
+            case "MISSION_REQUEST_LIST":
+                self._link.send(mavlink.MAVLink_mission_count_message(*to, 0, m.mission_type))
+            case "MISSION_COUNT":
+                unsupported = mavlink.MAV_MISSION_UNSUPPORTED
+                self._link.send(mavlink.MAVLink_mission_ack_message(*to, unsupported, m.mission_type))
             case "PARAM_REQUEST_LIST":
                 self._listed = iter(parameters.names)
             case "PARAM_REQUEST_READ":
@@ -140,7 +148,7 @@ class MavlinkVehicle:
                 finally:  # also when it is refused, a client gets the value that counts
                     self._link.send(parameters.message(m.param_id))
             case "TIMESYNC" if m.tc1 == 0:
-                self._link.send(mavlink.MAVLink_timesync_message(time.time_ns(), m.ts1))
+                self._link.send(mavlink.MAVLink_timesync_message(round(1e9 * autopilot.state.time), m.ts1))
 
     def _answer(self, m: Any, p: Sequence[float]) -> None:
         """Run a command and acknowledge it."""
@@ -149,6 +157,9 @@ class MavlinkVehicle:
         except InputError as refusal:
             self.say(str(refusal))
             result = mavlink.MAV_RESULT_TEMPORARILY_REJECTED
+        self._acknowledge(m, result)
+
+    def _acknowledge(self, m: Any, result: int) -> None:
         to = m.get_srcSystem(), m.get_srcComponent()
         self._link.send(mavlink.MAVLink_command_ack_message(m.command, result, 0, 0, *to))
 
@@ -158,9 +169,11 @@ class MavlinkVehicle:
             case mavlink.MAV_CMD_COMPONENT_ARM_DISARM if p[0] == 1.0:
                 if not self._quadrotors.arm(self._i):
                     raise InputError(TUMBLED)
-                self.autopilot.armed = True
+                self.autopilot.arm()
             case mavlink.MAV_CMD_COMPONENT_ARM_DISARM if p[0] == 0.0:
                 self.autopilot.disarm(force=p[1] == FORCE)
+                if p[1] == FORCE:  # one that is carried, too
+                    self._quadrotors.disarm(self._i)
             case mavlink.MAV_CMD_DO_SET_MODE if all(map(math.isfinite, p[1:3])):
                 self._switch(int(p[1]), int(p[2]))
             case mavlink.MAV_CMD_NAV_TAKEOFF:
@@ -172,6 +185,7 @@ class MavlinkVehicle:
             case mavlink.MAV_CMD_SET_MESSAGE_INTERVAL if p[0] in RATES and p[1] >= -1.0:  # µs; 0: as first; -1: never
                 asked = max(1e-6 * p[1], FASTEST) if p[1] > 0.0 else math.inf
                 self._periods[int(p[0])] = asked if p[1] else self._first[int(p[0])]
+                self._due[int(p[0])] = self.autopilot.state.time
             case _:
                 return mavlink.MAV_RESULT_UNSUPPORTED
         return mavlink.MAV_RESULT_ACCEPTED
@@ -185,8 +199,7 @@ class MavlinkVehicle:
 class MavlinkVehicles:
     """All quadrotors as MAVLink `vehicles`, whose ports are held while it is entered.
 
-    They are one body: if setpoints of one are lost, the failsafe is that of all that are armed. Keys and channels of a
-    `flight` are among the parameters; clients of the first quadrotor listen at `port`.
+    Keys and channels of a `flight` are among the parameters; clients of the first quadrotor listen at `port`.
     """
 
     def __init__(self, quadrotors: Quadrotors, flight: RealTimeFlight | None = None, port: int = PORT) -> None:
@@ -219,6 +232,9 @@ class MavlinkVehicles:
                 MavlinkVehicle(self._quadrotors, number, link, MavlinkParameters(self.keys, self.readings))
                 for number, link in enumerate(self._links, 1)
             ]
+            crew = [vehicle.autopilot for vehicle in self.vehicles]
+            for autopilot in crew:
+                autopilot.crew = crew
         self._now = now
         for vehicle in self.vehicles:
             vehicle.tick(now)
@@ -227,5 +243,3 @@ class MavlinkVehicles:
                 failed.autopilot.failsafe = None
                 for vehicle in self.vehicles:
                     vehicle.say(f"system {failed.number} has no setpoints: {mode.name}")
-                    if vehicle.autopilot.armed:
-                        vehicle.autopilot.enter(mode)
