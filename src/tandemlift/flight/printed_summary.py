@@ -8,7 +8,7 @@ import numpy as np
 
 from tandemlift.core.types import Array
 from tandemlift.flight.channels import FLOWN
-from tandemlift.flight.record import Flight
+from tandemlift.flight.record import Flight, counted_until
 
 NOT_KNOWN = "   not known"
 
@@ -17,7 +17,7 @@ def summary_lines(flight: Flight) -> Iterator[str]:
     """The outcome of a flight, its main metrics and its events."""
     m = flight.metrics()
     late = "_after_10s" if m["position_rmse_after_10s_m"] else ""
-    when = "after 10 s" if late else "whole flight"
+    when = "after 10 s" if late else "whole flight" if counted_until(flight) is None else "until crash"
     rows = [
         ("final position", _list(m["final_position_m"], 3), "m"),
         ("final reference", _list(m["final_reference_m"], 3), "m"),

@@ -22,11 +22,11 @@ from tandemlift.pictures.drawing.panels import (
     HIGH,
     LOW,
     MOST,
-    START,
     fit,
     is_disturbed,
     legend_above,
     line,
+    scaling,
     time_axis,
 )
 from tandemlift.pictures.drawing.style import GREY, look, page_figure, points, styled
@@ -79,8 +79,8 @@ def _draw(ax: Axes, panel: Panel) -> bool:
     for place, flight, values in panel.series:
         line(ax, flight.time, values, **look(place))
     scale = [one for one in panel.series if not one[1].ending] or panel.series
-    cut = any(is_disturbed(flight.time, values[:, None], (least,)) for _, flight, values in scale)
-    fit(ax, *(values[flight.time > START] if cut else values for _, flight, values in scale), least=least)
+    cut = any(is_disturbed(flight, values[:, None], (least,)) for _, flight, values in scale)
+    fit(ax, *(scaling(flight, values, cut) for _, flight, values in scale), least=least)
     ax.axhline(0.0, color=GREY, lw=0.4, zorder=0)
     ax.set_title(panel.title + (CUT if cut else ""), fontsize=points(8), pad=2)
     return cut
@@ -100,7 +100,7 @@ def over_time(*channels: str) -> Overlay:
             axes = [figure.add_subplot(grid[i, wide * j : wide * (j + 1)]) for j in range(len(row))]
             for ax, panel in zip(axes, row, strict=True):
                 cut |= _draw(ax, panel)
-                time_axis(ax, longest, label=last)
+                time_axis(ax, longest, label=last, crash=len(flights) == 1)
             axes[0].set_ylabel(row[0].unit)
             first.append(axes[0])
         figure.align_ylabels(first)
