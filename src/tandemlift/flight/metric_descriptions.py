@@ -68,7 +68,9 @@ METRIC_GROUPS: tuple[MetricGroup, ...] = (
                 "number of pushes that interactive guidance began to follow, including one followed at 10 s; `null` "
                 "with scheduled guidance, which follows each push without a trigger",
             ),
-            "rotor_saturated_share": Metric("1", "fraction of steps with any rotor at a limit; 0 with ideal actuators"),
+            "rotor_saturated_share": Metric(
+                "1", "fraction of steps with any rotor at a limit that is not known as failed; 0 with ideal actuators"
+            ),
             "final_position_m": Metric("m", "position at the end", AXES),
             "final_reference_m": Metric("m", "reference of the position at the end", AXES),
             "command_at_start": Metric(
