@@ -24,7 +24,11 @@ def summary_lines(flight: Flight) -> Iterator[str]:
         (f"position RMSE, {when}", _list(m[f"position_rmse{late}_m"], 2, 1e3), "mm"),
         (f"largest position error, {when}", _list(m[f"position_max_error{late}_m"], 2, 1e3), "mm"),
         ("attitude RMSE", _list(m["attitude_rmse_rad"], 2, 57.29577951308232), "deg"),
-        ("thrust after 10 s", _list([m["thrust_min_after_10s_n"], m["thrust_max_after_10s_n"]], 2), "N (min, max)"),
+        (
+            "commanded thrust after 10 s",
+            _list([m["thrust_min_after_10s_n"], m["thrust_max_after_10s_n"]], 2),
+            "N (min, max)",
+        ),
         ("largest thrust", _largest_thrust(flight), ""),
         ("human work", *((NOT_KNOWN, "") if m["human_work_j"] is None else (_list([m["human_work_j"]], 2), "J"))),
     ]
