@@ -91,6 +91,11 @@ def test_the_arrow_of_a_push_starts_on_the_line_along_which_it_acts(flight):
     np.testing.assert_allclose(np.cross(start - flight["position"][k] - point, force), 0.0, atol=0.01)
     np.testing.assert_allclose(tip - start, 0.9 * force, atol=0.01)
     assert stage.arrow(0.5) is None
+    noise = FlightStage(
+        dataclasses.replace(flight, channels=flight.channels | {"push_force": 1e-9 * flight["push_force"]})
+    )
+    assert noise.arrow(3.0) is None
+    assert noise.strongest_push_time == flight.time[-1]
 
 
 def test_the_floor_touches_the_lowest_foot_of_the_flight_or_is_the_missions(flight):

@@ -109,7 +109,9 @@ class Film:
         image = self._studio.picture(time, view, cell)
         push = float(np.linalg.norm(self.stage.push(time)))
         notes = [self.stage.name, f"{time:.2f} s{note}", f"grid {cell:g} m"]
-        notes += [f"push {push:.1f} N"] if self.stage.is_push_shown(push) else []
+        notes += (
+            [f"push {push:.1f} N" if push >= 1.0 else f"push {push:.2g} N"] if self.stage.is_push_shown(push) else []
+        )
         height = max(10, self._size[1] // 40)
         place = height, self._size[1] - 2 * height
         ImageDraw.Draw(image).text(place, "     ".join(notes), fill=INK, font=_font(height))
