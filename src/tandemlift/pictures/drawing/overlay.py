@@ -48,10 +48,14 @@ def legend_of_flights(figure: Figure, flights: Flights, place: str = "outside up
 
 
 class Panel(NamedTuple):
-    """A component of a channel over time: title, unit, and of each flight that has it its place and its values (T,)."""
+    """A component of a channel over time: title, unit, and of each flight that has it its place and its values (T,).
+
+    `label`: of the value axis, where it is the first panel of a row.
+    """
 
     title: str
     unit: str
+    label: str
     series: list[tuple[int, Flight, Array]]
 
 
@@ -65,11 +69,19 @@ def _rows(flights: Flights, channel: str) -> list[list[Panel]]:
     unit = info.unit.replace("rad", "°").replace("^2", "²") if info.unit != "1" else ""
     scale = np.degrees(1.0) if "°" in unit else 1.0
     series = [(place, flight, scale * np.atleast_2d(flight[channel].T).T) for place, flight in having]
+    titles, label, by_rotor = (
+        [n.replace("_", " ") for n in column_names(channel, info, shape)],
+        unit,
+        info.per == "rotor",
+    )
+    if by_rotor:
+        titles = [f"quadrotor {i // ROTORS + 1}, rotor {i % ROTORS + 1}" for i in range(len(titles))]
+        label = f"{channel.replace('_', ' ')}\n({unit})"
     panels = [
-        Panel(name.replace("_", " "), unit, [(k, f, v[:, i]) for k, f, v in series if i < v.shape[1]])
-        for i, name in enumerate(column_names(channel, info, shape))
+        Panel(title, unit, label, [(k, f, v[:, i]) for k, f, v in series if i < v.shape[1]])
+        for i, title in enumerate(titles)
     ]
-    across = AXES if info.per != "rotor" and len(panels) % AXES == 0 else min(len(panels), ROTORS)
+    across = AXES if not by_rotor and len(panels) % AXES == 0 else min(len(panels), ROTORS)
     return [panels[i : i + across] for i in range(0, len(panels), across)][:MOST]
 
 
@@ -101,7 +113,7 @@ def over_time(*channels: str) -> Overlay:
             for ax, panel in zip(axes, row, strict=True):
                 cut |= _draw(ax, panel)
                 time_axis(ax, longest, label=last, crash=len(flights) == 1)
-            axes[0].set_ylabel(row[0].unit)
+            axes[0].set_ylabel(row[0].label)
             first.append(axes[0])
         figure.align_ylabels(first)
         if cut:
