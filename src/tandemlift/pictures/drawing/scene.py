@@ -48,10 +48,12 @@ class Scene3D:
         axes: plain axes, in metres on paper.
         box: (3, 2) lower and upper ends of the box [m, world axes], multiples of `cell` but for a floor that is there.
         cell: of the grid [m].
+        stands: whether the box stands on a floor that is there.
     """
 
     def __init__(self, points: Array, floor: float | None = None) -> None:
         self.cell, self.box = _box(points)
+        self.stands = floor is not None
         if floor is not None:
             self.box[2] = floor, max(self.box[2, 1], floor + self.cell)
         corners = on_paper(np.stack(np.meshgrid(*self.box), axis=-1).reshape(-1, 3))
