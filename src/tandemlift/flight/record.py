@@ -218,8 +218,8 @@ class Flight(Mapping[str, Array]):
 
 def counted_until(flight: Flight) -> float | None:
     """Time [s] of a crash after which the flight goes on, and at which its metrics end; None of any other flight."""
-    crashed = flight.ending is not None and flight.ending.outcome == "crashed"
-    return flight.ending.time if crashed and flight.time[-1:].sum() > flight.ending.time else None
+    end = flight.ending
+    return end.time if end and end.outcome == "crashed" and flight.time[-1:].sum() > end.time else None
 
 
 def _written(ending: Ending | None) -> list[Any] | None:

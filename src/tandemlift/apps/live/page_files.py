@@ -126,7 +126,7 @@ _PUSH: dict[str, Rule] = {
 
 def _check_script(script: Mapping[str, Any], missions: Collection[str]) -> None:
     """Reject keys and values that the page would refuse, but for settings, which depend on the flight."""
-    tables = "one table [[steps]] or more", lambda v: isinstance(v, list) and v and all(isinstance(s, dict) for s in v)
+    tables = "one table [[steps]] or more", lambda v: isinstance(v, list) and {dict} == {type(step) for step in v}
     _check("", script, {"title": _words(80), "mission": _one_of(missions), "steps": tables}, ("steps",))
     for place, step in enumerate(script["steps"], 1):
         _check(where := f"step {place}: ", step, _STEP, ("text",))

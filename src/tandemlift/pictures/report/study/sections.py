@@ -202,9 +202,8 @@ def _quantiles(values: Array, look: QuantityDisplay, low_is_bad: bool) -> Sequen
     median, (low, high) = quantile(known), np.quantile(known, [0.05, 0.95])
     worst = known.min() if low_is_bad else known.max()
     bounds = [number(v) if np.isfinite(v) else DASH for v in (median.low, median.high)]
-    middle: Cell = number(median.value)
-    if bounds != [DASH, DASH]:  # of few rows there is no interval
-        middle = (middle, f"{bounds[0]} to {bounds[1]}")
+    middle: Cell = (number(median.value), f"{bounds[0]} to {bounds[1]}")
+    middle = middle[0] if bounds == [DASH, DASH] else middle  # of few rows there is no interval
     return [count(len(known)), middle, *[number(float(v)) for v in (low, high, worst)]]
 
 
