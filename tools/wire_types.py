@@ -1,10 +1,12 @@
 """Write the page's TypeScript types from the wire's definitions.
 
-Usage: python tools/wire_types.py (`make page` calls it). The definitions are in src/tandemlift/apps/live/session/.
+Usage: python tools/wire_types.py (`make page` calls it). The definitions are in src/tandemlift/apps/live/session/,
+and the words of a lecture in page_files.py beside it.
 """
 
 from __future__ import annotations
 
+import json
 import types
 from collections.abc import Iterator
 from pathlib import Path
@@ -24,6 +26,7 @@ from annotated_types import Ge, Le, MinLen
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
+from tandemlift.apps.live.page_files import STEP_WORDS
 from tandemlift.apps.live.session.frames import FRAME_FIELDS
 from tandemlift.apps.live.session.page_messages import MAX_SIZE, PAGE_MESSAGES
 from tandemlift.apps.live.session.server_messages import (
@@ -40,7 +43,7 @@ TYPESCRIPT = ROOT / "web" / "src" / "wire" / "messages.generated.ts"
 HUGE = 1e6  # a bound that only keeps numbers finite
 WORDS = {float: "number", int: "number", str: "string", bool: "boolean", type(None): "null"}
 HEAD = """\
-// Written by tools/wire_types.py from src/tandemlift/apps/live/session/: change it there.
+// Written by tools/wire_types.py from src/tandemlift/apps/live/session/ and page_files.py: change it there.
 
 export type Vector = readonly [number, number, number];
 export type Quaternion = readonly [number, number, number, number]; // w, x, y, z: body to world
@@ -184,6 +187,9 @@ def page_types() -> str:
     texts.append("/** Parameters that the picture and the plots show. */")
     texts += [f'export const {name} = "{key}";' for name, key in SHOWN_PARAMETERS.items()]
     texts.append(f"/** Size of a message, at most [bytes]. */\nexport const MAX_SIZE = {MAX_SIZE};\n")
+    texts.append("/** Words that keys of a step of a lecture may have. */\nexport const STEP_WORDS = {")
+    texts += [f"  {key}: [{', '.join(map(json.dumps, words))}]," for key, words in STEP_WORDS.items()]
+    texts.append("} as const;\n")
     texts.append(limits())
     kinds = dict.fromkeys([*parts_of(FlightScene), FlightScene, *parts_of(StatusMessage), FlightStatus])
     kinds |= dict.fromkeys([*SERVER_MESSAGES.values(), *PAGE_MESSAGES.values()])

@@ -216,10 +216,14 @@ def test_a_refused_lift_says_which_check_failed(fly):
 
 
 def test_a_rotor_that_failed_is_the_reason_of_a_landing_without_supervision():
-    flight = tl.fly(tl.load_mission("rotor-loss", {"mission.duration": 18.0}))
+    flight = tl.fly(tl.load_mission("rotor-loss", {"mission.duration": 18.0, "mission.log_interval": 0.001}))
     assert kinds(flight) == ["landed-by-fault"]
     assert "rotor 1" in flight.findings[0].text
     assert 14.0 < flight.findings[0].time < 14.5
+    commands, most = flight["rotor_commands"][:-1], 5.84e-6 * 1100.0**2
+    usable = np.arange(1.0, 9.0) != flight["failed_rotor"][:-1, None]  # one known as failed does not count
+    limited = (((commands <= 0.0) | (commands >= most)) & usable).any(axis=1) & (flight["phase"][:-1] > 0.0)
+    assert flight.metrics()["rotor_saturated_share"] == pytest.approx(limited.mean(), rel=1e-12)
 
 
 def test_a_landing_by_fault_is_found_after_more_events_than_are_kept():

@@ -22,7 +22,8 @@ const VECTORS: [string, string, FrameFieldName, FrameFieldName?, string?][] = [
 interface Curve {
   label: string;
   color: string;
-  dashed: boolean; // over others, in another colour: it often lies on one of them
+  deep: boolean; // half way from its colour to that of text
+  dash: number[]; // none of a solid line
   values: Float32Array;
 }
 
@@ -51,17 +52,19 @@ class Columns {
   }
 }
 
+/** The components of a vector; with a suffix dashed and deeper, as they often lie on those of another one. */
 function vector(columns: Columns, name: FrameFieldName, suffix = ""): Curve[] {
-  const dashed = suffix !== "";
-  return columns.of(name).map((values, i) => ({ label: `${"xyz"[i]} ${suffix}`.trim(), color: dashed ? "--ink" : COLORS[i], dashed, values }));
+  const look = suffix ? { deep: true, dash: [4, 8] } : { deep: false, dash: [] };
+  return columns.of(name).map((values, i) => ({ label: `${"xyz"[i]} ${suffix}`.trim(), color: COLORS[i], ...look, values }));
 }
 
-/** The thrusts, with a colour for each quadrotor. */
+/** The thrusts, with a colour for each quadrotor, deep for its rotors 2 and 4, dashed for 3 and 4. */
 function thrusts(columns: Columns): Curve[] {
   const owners = columns.scene.vehicle.quadrotors.flatMap((q, n) => q.rotors.map((_, i) => [n, i]));
   const label = (k: number): string => `rotor ${owners[k][0] + 1}.${owners[k][1] + 1}`;
   const color = (k: number): string => COLORS[owners[k][0] % COLORS.length];
-  const curve = (values: Float32Array, k: number): Curve => ({ label: label(k), color: color(k), dashed: false, values });
+  const look = (rotor: number) => ({ deep: rotor % 2 === 1, dash: rotor > 1 ? [6, 4] : [] });
+  const curve = (values: Float32Array, k: number): Curve => ({ label: label(k), color: color(k), ...look(owners[k][1]), values });
   return columns.of("thrusts").map(curve);
 }
 
@@ -77,13 +80,15 @@ function range(curves: Curve[], time: Float32Array, [first, last]: [number, numb
 function plot(title: string, unit: string, time: Float32Array, curves: Curve[], place: HTMLElement, seek: (time: number) => void): void {
   const ink = (name: string) => () => getComputedStyle(place).getPropertyValue(name);
   const axis = { stroke: ink("--soft"), grid: { stroke: ink("--line"), width: 1 }, ticks: { show: false } };
-  const series = curves.map((c) => ({ label: c.label, stroke: ink(c.color), points: { show: false }, ...(c.dashed ? { width: 1, dash: [4, 8] } : { width: 1.6 }) }));
+  const stroke = (c: Curve) => (c.deep ? () => `color-mix(in srgb, ${ink(c.color)()}, ${ink("--ink")()})` : ink(c.color));
+  const series = curves.map((c) => ({ label: c.label, stroke: stroke(c), dash: c.dash, points: { show: false }, width: c.dash.length ? 1.2 : 1.6 }));
   const options: uPlot.Options = {
     title: `${title} [${unit}]`,
     width: place.clientWidth,
     height: HEIGHT,
     scales: { x: { time: false }, y: { range: (u) => range(curves, time, u.series[0].idxs ?? [0, time.length - 1]) } },
     cursor: { sync: { key: "flight", scales: ["x", null] }, drag: { x: true, y: false }, y: false },
+    legend: { markers: { width: 2, dash: (_, i) => (curves[i - 1]?.dash.length ? "dashed" : "solid") } },
     axes: [{ ...axis, size: 30 }, { ...axis, size: 48 }],
     series: [{ label: "time [s]" }, ...series],
   };

@@ -13,6 +13,7 @@ from typing import NamedTuple
 AXES = ("x", "y", "z")
 ANGLES = ("roll", "pitch", "yaw")
 INPUTS = ("U1", "U2", "U3", "U4")
+ALSO = "also while stopped rotors do not follow it, and beyond what rotors can give"
 
 
 class Metric(NamedTuple):
@@ -58,9 +59,11 @@ METRIC_GROUPS: tuple[MetricGroup, ...] = (
             ),
             "velocity_max_error_after_10s_m_s": Metric("m/s", "largest absolute velocity error after 10 s", AXES),
             "max_tilt_after_10s_rad": Metric("rad", "largest absolute Euler angle after 10 s", ANGLES),
-            "thrust_min_after_10s_n": Metric("N", "smallest commanded thrust U1 after 10 s"),
-            "thrust_max_after_10s_n": Metric("N", "largest commanded thrust U1 after 10 s"),
-            "moment_max_abs_after_10s_n_m": Metric("N m", "largest absolute commanded moment after 10 s", INPUTS[1:]),
+            "thrust_min_after_10s_n": Metric("N", f"smallest commanded thrust U1 after 10 s, {ALSO}"),
+            "thrust_max_after_10s_n": Metric("N", f"largest commanded thrust U1 after 10 s, {ALSO}"),
+            "moment_max_abs_after_10s_n_m": Metric(
+                "N m", f"largest absolute commanded moment after 10 s, {ALSO}", INPUTS[1:]
+            ),
             "human_impulse_n_s": Metric("N s", "integral over time of the person's push, unfiltered", AXES),
             "human_work_j": Metric("J", "work of the person's push: integral of F·v, v of the point pushed"),
             "push_triggers_after_10s": Metric(
@@ -68,7 +71,9 @@ METRIC_GROUPS: tuple[MetricGroup, ...] = (
                 "number of pushes that interactive guidance began to follow, including one followed at 10 s; `null` "
                 "with scheduled guidance, which follows each push without a trigger",
             ),
-            "rotor_saturated_share": Metric("1", "fraction of steps with any rotor at a limit; 0 with ideal actuators"),
+            "rotor_saturated_share": Metric(
+                "1", "fraction of steps with any rotor at a limit that is not known as failed; 0 with ideal actuators"
+            ),
             "final_position_m": Metric("m", "position at the end", AXES),
             "final_reference_m": Metric("m", "reference of the position at the end", AXES),
             "command_at_start": Metric(

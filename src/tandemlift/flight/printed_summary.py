@@ -8,7 +8,7 @@ import numpy as np
 
 from tandemlift.core.types import Array
 from tandemlift.flight.channels import FLOWN
-from tandemlift.flight.record import Flight
+from tandemlift.flight.record import Flight, counted_until
 
 NOT_KNOWN = "   not known"
 
@@ -17,14 +17,18 @@ def summary_lines(flight: Flight) -> Iterator[str]:
     """The outcome of a flight, its main metrics and its events."""
     m = flight.metrics()
     late = "_after_10s" if m["position_rmse_after_10s_m"] else ""
-    when = "after 10 s" if late else "whole flight"
+    when = "after 10 s" if late else "whole flight" if counted_until(flight) is None else "until crash"
     rows = [
         ("final position", _list(m["final_position_m"], 3), "m"),
         ("final reference", _list(m["final_reference_m"], 3), "m"),
         (f"position RMSE, {when}", _list(m[f"position_rmse{late}_m"], 2, 1e3), "mm"),
         (f"largest position error, {when}", _list(m[f"position_max_error{late}_m"], 2, 1e3), "mm"),
         ("attitude RMSE", _list(m["attitude_rmse_rad"], 2, 57.29577951308232), "deg"),
-        ("thrust after 10 s", _list([m["thrust_min_after_10s_n"], m["thrust_max_after_10s_n"]], 2), "N (min, max)"),
+        (
+            "commanded thrust after 10 s",
+            _list([m["thrust_min_after_10s_n"], m["thrust_max_after_10s_n"]], 2),
+            "N (min, max)",
+        ),
         ("largest thrust", _largest_thrust(flight), ""),
         ("human work", *((NOT_KNOWN, "") if m["human_work_j"] is None else (_list([m["human_work_j"]], 2), "J"))),
     ]

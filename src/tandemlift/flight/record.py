@@ -216,6 +216,12 @@ class Flight(Mapping[str, Array]):
             raise InputError(f"{path} is damaged or no flight that tandemlift saved ({error})") from error
 
 
+def counted_until(flight: Flight) -> float | None:
+    """Time [s] of a crash after which the flight goes on, and at which its metrics end; None of any other flight."""
+    end = flight.ending
+    return end.time if end and end.outcome == "crashed" and flight.time[-1:].sum() > end.time else None
+
+
 def _written(ending: Ending | None) -> list[Any] | None:
     """An ending as strict JSON: its value, which may be nan, is a text."""
     return ending and [ending.quantity, ending.time, repr(ending.value), *ending[3:]]

@@ -76,6 +76,7 @@ def test_the_files_of_a_certificate(tmp_path):
     assert said["tables"]["admittance"]["damping"] == [3.25] * 3
     assert load_mission(tmp_path / "mission.toml").admittance.damping == (3.25,) * 3
     assert pdf.read_bytes().startswith(b"%PDF")
+    assert {path.name for path in tmp_path.iterdir()} == {"limits", "mission.toml", page.name, data.name, pdf.name}
     assert any("flown 53 (oscillation)" in line for line in certificate_lines(made()))
 
 

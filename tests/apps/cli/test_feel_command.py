@@ -17,6 +17,7 @@ def test_it_prints_the_closed_form_and_the_gate():
     assert "the response to a standard push, by the closed form" in text
     assert "0.62 m/s" in text  # 1 N / 1.6 N s/m
     assert "A push must exceed 0.3 N; beyond it the whole force acts." in text
+    assert text.endswith("no check applies to this mission\n"), "with ideal rotors and exact sensors"
     assert tl.feel("one-push").summary()["axes"][0]["final_speed"] == pytest.approx(1.0 / 1.6)
 
 

@@ -211,6 +211,18 @@ def test_a_class_is_graded_and_what_misbehaves_is_named(tmp_path):
         assert line in said, said
 
 
+@pytest.mark.parametrize(
+    "content", [b"{", b"", b"\xff\xfe{}", b"[" * 100_000], ids=("half", "empty", "no text", "deep")
+)
+def test_a_damaged_notebook_is_no_readable_json(tmp_path, content):
+    (tmp_path / "kim.ipynb").write_bytes(content)
+    found, others = notebooks_in(tmp_path, EXERCISES)
+    assert (found, others) == (
+        [],
+        ["kim.ipynb: is no readable JSON, as of a notebook that is damaged or not whole, and was skipped"],
+    )
+
+
 def test_an_endless_cell_is_ended_and_named_although_it_catches_everything(tmp_path):
     loop = "while True:\n    try:\n        pass\n    except BaseException:\n        pass"
     handed_in(tmp_path, "cleo", "1-admittance", loop)

@@ -8,6 +8,9 @@ import tandemlift as tl
 from tandemlift.apps.live.replay import report_replay
 from tandemlift.pictures.report.flight_report import write_report
 
+LOOKS = """() => [...document.querySelectorAll("#plots .uplot")].map((plot) => Object.fromEntries(
+  [...plot.querySelectorAll(".u-series")].slice(1).map((one) => [
+    one.querySelector(".u-label").textContent, one.querySelector(".u-marker").style.border])))"""
 SIZES = {"desktop": (1280, 900), "phone": (390, 844)}
 
 
@@ -43,6 +46,18 @@ def test_the_flight_plays_and_a_click_in_a_plot_takes_it_to_that_time(browser, p
     assert page.evaluate("document.documentElement.scrollWidth") <= width
     assert page.wrong == []
     assert [url for url in asked if not url.startswith(("file:", "blob:", "data:", "about:"))] == []
+    page.close()
+
+
+def test_no_two_lines_of_a_plot_look_alike(browser, path):
+    page = new_page(browser, {"width": 1280, "height": 900})
+    page.goto(path.as_uri())
+    page.wait_for_selector("#flight[data-shown]")
+    looks = page.evaluate(LOOKS)
+    assert [len(plot) for plot in looks] == [6, 3, 6, 8], "position, velocity, push, thrusts"
+    for plot in looks:
+        assert len(set(plot.values())) == len(plot), plot
+    assert all("dashed" in looks[0][f"{axis} ref"] for axis in "xyz")
     page.close()
 
 

@@ -15,7 +15,7 @@ from tandemlift.apps.cli.export import render as command
 from tandemlift.engines.models.camera import camera_of
 from tandemlift.engines.models.visuals import SUN
 from tandemlift.pictures.drawing import studio
-from tandemlift.pictures.drawing.film import Animation, Film, Shot, look_at, picture, render
+from tandemlift.pictures.drawing.film import Animation, Film, Shot, _smoothed, look_at, picture, render
 from tandemlift.pictures.drawing.ground import HAZE, grid, rgb, shadow_on
 from tandemlift.pictures.drawing.stage import FlightStage
 
@@ -64,6 +64,15 @@ def test_the_arrow_of_a_push_appears_where_a_pinhole_camera_sees_it(flight, name
     np.testing.assert_allclose(found + 0.5, [ends.min(axis=0), ends.max(axis=0)], atol=6.0)  # an arrow is wide
 
 
+@pytest.mark.parametrize("count", [3, 4, 40, 400])
+def test_a_following_camera_keeps_a_falling_vehicle_in_its_middle(count):
+    time = np.linspace(0.0, 3.0, count)
+    fall = np.column_stack([0.5 * time, 0.0 * time, -4.905 * time**2])
+    off = np.abs(_smoothed(time, fall) - fall).max(axis=1)
+    assert max(off[0], off[-1]) < 1e-12
+    assert off.max() < (0.2 if count > 4 else 6.0)  # a parabola's mean over 0.6 s: g · 0.6² / 24 = 0.15 m
+
+
 def test_a_shadow_lies_where_the_suns_rays_meet_the_floor():
     point = np.array([1.0, -2.0, 3.0])
     shadow = (shadow_on(0.5) @ [*point, 1.0])[:3]
@@ -91,6 +100,11 @@ def test_the_arrow_of_a_push_starts_on_the_line_along_which_it_acts(flight):
     np.testing.assert_allclose(np.cross(start - flight["position"][k] - point, force), 0.0, atol=0.01)
     np.testing.assert_allclose(tip - start, 0.9 * force, atol=0.01)
     assert stage.arrow(0.5) is None
+    noise = FlightStage(
+        dataclasses.replace(flight, channels=flight.channels | {"push_force": 1e-9 * flight["push_force"]})
+    )
+    assert noise.arrow(3.0) is None
+    assert noise.strongest_push_time == flight.time[-1]
 
 
 def test_the_floor_touches_the_lowest_foot_of_the_flight_or_is_the_missions(flight):

@@ -2,17 +2,20 @@
 
 import re
 import struct
+from itertools import combinations
 
 import numpy as np
 import pytest
 from colour_contrast import contrast
 from IPython.core.formatters import DisplayFormatter
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 from PIL import Image
 
 import tandemlift as tl
 from tandemlift.core.errors import InputError
 from tandemlift.pictures.drawing.figure import DARK, IEEE, current_style, figure_style
+from tandemlift.pictures.drawing.scene import Scene3D
 from tandemlift.pictures.drawing.style import save
 from tandemlift.pictures.figures.registry import figures, save_figures
 
@@ -77,6 +80,25 @@ def test_the_dark_style_is_drawn_on_dark_paper_and_nothing_is_black_or_white(fli
     assert np.mean(np.abs(dots - paper).max(axis=1) < 40) > 0.8
     assert dots.min() >= paper.min()
     assert dots.min(axis=1).max() < 245, "no white"
+
+
+@pytest.mark.parametrize("style", ["ieee", "dark"])
+@pytest.mark.parametrize(
+    "size", [(0.7, 2.7, 1.8), (0.9, 0.9, 0.9), (3.0, 0.8, 0.9), (40.0, 90.0, 3.0), (6.0, 6.0, 45.0)]
+)
+def test_numbers_on_the_edges_of_a_scene_do_not_overlap(style, size):
+    with figure_style(style):
+        figure = Scene3D(np.array([-np.array(size) / 2.0, np.array(size) / 2.0])).figure
+    renderer = FigureCanvasAgg(figure).get_renderer()
+    numbers = [text for text in figure.axes[0].texts if re.fullmatch(r"[−\d.]+", text.get_text())]
+    boxes = [text.get_window_extent(renderer) for text in numbers]
+    assert len(boxes) >= 6
+    close = [
+        (a.get_text(), b.get_text())
+        for (a, p), (b, q) in combinations(zip(numbers, boxes, strict=True), 2)
+        if p.overlaps(q)
+    ]
+    assert close == []
 
 
 @pytest.mark.parametrize("palette", [IEEE.palette, DARK], ids=["light", "dark"])

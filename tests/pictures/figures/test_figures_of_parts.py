@@ -297,6 +297,8 @@ def test_the_height_is_the_lowest_soles_over_the_floor_that_the_engine_has(windy
 def test_a_floor_may_be_given_or_absent(windy, paper):
     assert floor_height(paper) is None
     assert floor_height(with_mission(windy, ground={"model": "floor", "height": -3.0})) == -3.0
+    shadows = [figures()["path"].draw(flight).legends[0].get_texts()[1].get_text() for flight in (paper, windy)]
+    assert shadows == ["its shadow", "its shadow on the floor"]
 
 
 def polygons(figure, gid):

@@ -60,6 +60,13 @@ def test_each_panel_has_a_component_of_each_flight(flights, channel):
             assert drawn[:, 1] == pytest.approx(values)
 
 
+def test_panels_of_rotors_are_named_as_in_the_figure_of_one_flight(flights):
+    figure = tl.plot(flights, "rotor_thrusts")
+    titles = [f"quadrotor {quadrotor}, rotor {rotor}" for quadrotor in (1, 2) for rotor in (1, 2, 3, 4)]
+    assert [ax.get_title() for ax in figure.axes] == titles
+    assert [ax.get_ylabel() for ax in figure.axes] == [*["rotor thrusts\n(N)", "", "", ""] * 2]
+
+
 def test_lines_of_a_flight_have_its_colour_in_all_panels_and_in_the_legend(flights):
     figure = tl.plot(flights, "reference")
     assert list(legend(figure)) == ["soft", "firm"]

@@ -142,6 +142,10 @@ def test_the_pdf_has_the_figures_tables_and_errata(pdf):
     for erratum in errata():
         assert erratum.about.replace("_", "") in text.replace("\u200b", "").replace("_", "").replace("\n", "")
     assert "3.227327" in text
+    body = "\n".join(page.extract_text() for page in pages[1:])  # without the table of contents
+    placed = re.findall(r"^Figure (\d)(:|[^.\n]* here\.)", body, re.M)  # headings and captions
+    assert [number for number, _ in placed] == sorted(number for number, _ in placed)
+    assert {number for number, end in placed if end != ":"} == set("123456789")
 
 
 def test_the_tables_are_written_for_spreadsheets_and_papers(folder):

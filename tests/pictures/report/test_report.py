@@ -269,8 +269,9 @@ def test_numbers_are_printed_for_people(value, text):
     ("name", "words", "unit"),
     [
         ("position_rmse_after_10s_m", "Position RMSE after 10 s", "m"),
-        ("moment_max_abs_after_10s_n_m", "Moment max abs after 10 s", "N m"),
+        ("moment_max_abs_after_10s_n_m", "Commanded moment max abs after 10 s", "N m"),
         ("rotor_saturated_share", "Rotor saturated share", ""),
+        ("thrust_max_after_10s_n", "Commanded thrust max after 10 s", "N"),
         ("attitude_rmse_rad.0", "Attitude RMSE, roll", "rad"),
         ("command_at_start.0", "Command at start, U1", "N"),
         ("command_at_start.3", "Command at start, U4", "N m"),

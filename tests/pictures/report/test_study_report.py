@@ -13,6 +13,7 @@ import tandemlift as tl
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.analysis.studies.table import outcome_lines
+from tandemlift.analysis.studies.worst import worst_rows
 from tandemlift.core.findings import FINDING_NAMES
 from tandemlift.pictures.report.page import number
 from tandemlift.pictures.report.study.maps import axis_of
@@ -253,3 +254,18 @@ def test_a_study_that_is_not_finished_says_so_and_an_empty_one_is_refused(study,
     with pytest.raises(tl.InputError, match="no row of the study is flown yet"):
         write_study_report(tl.load_study(part.folder), tmp_path / "none.html")
     assert not (tmp_path / "none.html").exists()
+
+
+def test_a_study_of_one_row_is_in_the_singular(tmp_path):
+    one = {"study": {"name": "one", "missions": ["one-push"]}, "grid": {"plant.mass_scale": [1.0]}}
+    text = check_page(write_study_report(made_up(one, tmp_path / "one", measured), tmp_path / "report.html")).text
+    assert "The flight did not fail" in text
+    assert "plant.mass_scale: 1 value, " in text
+    assert not re.search(r"\b1 (rows|values|flights)\b", text)
+    assert "– to –" not in text
+
+
+def test_no_row_that_is_better_than_the_median_is_among_the_worst(tmp_path):
+    four = {"study": {"name": "four", "missions": ["one-push"]}, "grid": {"plant.mass_scale": [1.0, 1.1, 1.2, 1.3]}}
+    rows = StudyRows(made_up(four, tmp_path / "four", measured), ["position_rmse_after_10s_m"])
+    assert [int(rows.number[row.place]) for row in worst_rows(rows)] == [3, 2]

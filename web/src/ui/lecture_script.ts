@@ -4,8 +4,7 @@ import { parse, type TomlError, type TomlTable, type TomlValue } from "smol-toml
 
 import { size } from "../math/vectors.ts";
 import type { View } from "../view/camera.ts";
-import { type FlightScene, MAX_FORCE, type ParameterValue, type Vector } from "../wire/messages.generated.ts";
-import { QUANTITIES } from "./spotlight.ts";
+import { type FlightScene, MAX_FORCE, type ParameterValue, STEP_WORDS, type Vector } from "../wire/messages.generated.ts";
 
 export interface LectureStep {
   text: string;
@@ -46,12 +45,12 @@ const SCRIPT: Rules = {
 };
 const STEP: Rules = {
   text: words(400),
-  spotlight: oneOf(...Object.keys(QUANTITIES)),
-  camera: oneOf("behind", "side", "above", "board"),
+  spotlight: oneOf(...STEP_WORDS.spotlight),
+  camera: oneOf(...STEP_WORDS.camera),
   settings: ["a table of keys of the mission", isTable],
   push: ["a table with force and duration, as { force = [2, 0, 0], duration = 1.0 }", isTable],
-  ask: oneOf("lift", "land"),
-  ghost: oneOf("keep", "end"),
+  ask: oneOf(...STEP_WORDS.ask),
+  ghost: oneOf(...STEP_WORDS.ghost),
   pause: ["true or false", (value) => typeof value === "boolean"],
 };
 const PUSH: Rules = {

@@ -2,7 +2,7 @@
 
 import { size, subtract } from "../math/vectors.ts";
 import type { Frame } from "../wire/frames.ts";
-import type { FrameFieldName } from "../wire/messages.generated.ts";
+import type { FrameFieldName, STEP_WORDS } from "../wire/messages.generated.ts";
 import { el, svg } from "./dom.ts";
 import { SPAN } from "./time_window.ts";
 
@@ -30,7 +30,7 @@ export const QUANTITIES: Record<string, Quantity> = {
   contact: sized("force of the walls", "N", 1, "contact_force"),
   wind: sized("wind", "m/s", 1, "wind"),
   time: { name: "time", unit: "s", digits: 1, of: (frame) => frame.scalar("time") },
-};
+} satisfies Record<(typeof STEP_WORDS.spotlight)[number], Quantity>;
 const NAMES = Object.keys(QUANTITIES);
 
 /** The length of a vector of a frame. */

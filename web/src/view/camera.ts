@@ -3,9 +3,9 @@
 import { Matrix4, type Object3D, type PerspectiveCamera, Quaternion, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
-import type { Vector } from "../wire/messages.generated.ts";
+import type { STEP_WORDS, Vector } from "../wire/messages.generated.ts";
 
-export type View = "behind" | "side" | "above" | "board";
+export type View = (typeof STEP_WORDS.camera)[number];
 
 const PLACES: Record<Exclude<View, "board">, [number, number, number]> = {
   // from the vehicle to the eye, in units of the vehicle's reach; the corridor leads along x

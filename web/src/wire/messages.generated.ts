@@ -1,4 +1,4 @@
-// Written by tools/wire_types.py from src/tandemlift/apps/live/session/: change it there.
+// Written by tools/wire_types.py from src/tandemlift/apps/live/session/ and page_files.py: change it there.
 
 export type Vector = readonly [number, number, number];
 export type Quaternion = readonly [number, number, number, number]; // w, x, y, z: body to world
@@ -53,6 +53,14 @@ export const STIFFNESS = "person.stiffness";
 export const MAX_FORCE = "person.max_force";
 /** Size of a message, at most [bytes]. */
 export const MAX_SIZE = 65536;
+
+/** Words that keys of a step of a lecture may have. */
+export const STEP_WORDS = {
+  spotlight: ["push", "moment", "speed", "x", "y", "height", "error", "disturbance", "thrust", "contact", "wind", "time"],
+  camera: ["behind", "side", "above", "board"],
+  ask: ["lift", "land"],
+  ghost: ["keep", "end"],
+} as const;
 
 /** Bounds of numbers that the page sends. */
 export const LIMITS = {

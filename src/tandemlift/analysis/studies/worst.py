@@ -59,10 +59,12 @@ def _failed(rows: StudyRows) -> Places:
 
 
 def _ranked(rows: StudyRows, quantity: Quantity, most: int) -> Places:
-    """Places of the worst values of a quantity, the worst first."""
+    """Places of the worst values of a quantity, the worst first; none that is better than the median."""
     values = rows.values[quantity.name]
     places = np.flatnonzero(np.isfinite(values))
     badness = values[places] * (1.0 if quantity.low_is_bad else -1.0)
+    worse = badness <= np.median(badness) if len(places) else slice(0)
+    places, badness = places[worse], badness[worse]
     if len(places) > most:
         near = np.argpartition(badness, most)[:most]
         places, badness = places[near], badness[near]

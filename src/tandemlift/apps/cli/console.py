@@ -52,6 +52,9 @@ def progress_bar(label: str, unit: str, *, shown: bool = True) -> Iterator[Progr
 
 def print_checks(results: Sequence[CheckResult]) -> None:
     """Print the closest checks, the table of all, their texts and their counts, each in the colour of its verdict."""
+    if not results:
+        echo("no check applies to this mission")
+        return
     tight = sorted((r.margin, f"{r.check} {r.subject}".rstrip()) for r in results if r.margin is not None)
     if len(tight) > CLOSEST:
         echo("closest to their limits: " + ", ".join(f"{name} ({100 * left:.0f} %)" for left, name in tight[:CLOSEST]))

@@ -71,11 +71,13 @@ def live(
     from tandemlift.apps.live.server import PageServer, serve_until_interrupt
     from tandemlift.apps.live.two_flights import TwoFlights
     from tandemlift.engines.registry import engine_named
+    from tandemlift.missions import built_in
 
     engine_named(engine)
     check_folder("--out", out)
-    files = with_script(page_files(), script)
-    session = TwoFlights(load(mission, settings, controller), engine, Path(out))
+    flown = load(mission, settings, controller)
+    files = with_script(page_files(), script, [flown.mission.name, *built_in()])
+    session = TwoFlights(flown, engine, Path(out))
     serve_until_interrupt(PageServer(files, session, host, port), f"{mission}, live", echo, browser=not no_browser)
     exit_now(0)  # a thread may still be compiling
 
@@ -146,7 +148,8 @@ def page(
     check_folder("--out", out)
     if out:
         check_own(Path(out) / "index.html", pages.MARK)
-    files = with_script(page_files(), script)
+    names = [load(one, ()).mission.name for one in missions or page_modules.MISSIONS] if script else []
+    files = with_script(page_files(), script, names)
     with progress_bar("Compiling", "missions") as progress:
         flights = page_modules.packed_flights(missions or page_modules.MISSIONS, controller, progress)
     for line in pages.write_page(flights, Path(out) if out else None, one_file, files):

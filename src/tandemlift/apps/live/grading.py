@@ -139,13 +139,15 @@ def notebooks_in(folder: Path, exercises: Path) -> tuple[list[Notebook], list[st
         name = path.relative_to(folder).parts[0].removesuffix(".ipynb")
         try:
             exercise = str(json.loads(path.read_text("utf-8"))["metadata"]["tandemlift"]["exercise"])
-        except (ValueError, KeyError, TypeError):
-            exercise = ""
+            what = f"a notebook of exercise {exercise!r}, which is not in {exercises}"
+        except (ValueError, RecursionError):  # also of bytes that are no text
+            exercise, what = "", "no readable JSON, as of a notebook that is damaged or not whole"
+        except (KeyError, TypeError):
+            exercise, what = "", "a notebook of no exercise"
         if exercise in names:
             found.append(Notebook(name, exercise, path))
         else:
-            which = f"exercise {exercise!r}, which is not in {exercises}" if exercise else "no exercise"
-            others.append(f"{path.relative_to(folder)}: is a notebook of {which}, and was skipped")
+            others.append(f"{path.relative_to(folder)}: is {what}, and was skipped")
     return found, others
 
 

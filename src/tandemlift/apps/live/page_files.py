@@ -5,8 +5,9 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
+import math
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +26,7 @@ MEDIA_TYPES = {
     ".woff2": "font/woff2",
 }
 MAX_SCRIPT = 65_536  # bytes of the script of a lecture
+Rule = tuple[str, Callable[[Any], bool]]  # what is allowed, and whether a value is
 SCRIPT = r"<script\b[^>]*\bsrc=[\"']?(?:\./|/)?page\.js[\"']?[^>]*>\s*</script>"
 STYLE = r"<link\b[^>]*\bhref=[\"']?(?:\./|/)?page\.css[\"']?[^>]*>"
 
@@ -83,11 +85,75 @@ def with_element(files: Mapping[str, bytes], element: str) -> dict[str, bytes]:
     return {**files, "/": html, "/index.html": html}
 
 
-def with_script(files: Mapping[str, bytes], script: str | Path | None) -> Mapping[str, bytes]:
-    """The files of a page that begins with the script of a lecture, if there is one; the page checks its steps.
+STEP_WORDS: dict[str, tuple[str, ...]] = {
+    "spotlight": (
+        *("push", "moment", "speed", "x", "y", "height", "error", "disturbance", "thrust", "contact", "wind", "time"),
+    ),
+    "camera": ("behind", "side", "above", "board"),
+    "ask": ("lift", "land"),
+    "ghost": ("keep", "end"),
+}
+"""The words that keys of a step of a lecture may have; the page has them from here, by `tools/wire_types.py`."""
+
+
+def _one_of(names: Collection[str]) -> Rule:
+    return f"one of {', '.join(names)}", lambda value: isinstance(value, str) and value in names
+
+
+def _words(most: int) -> Rule:
+    return f"a text of 1 to {most} characters", lambda v: isinstance(v, str) and v.strip() != "" and len(v) <= most
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+_STEP: dict[str, Rule] = {
+    "text": _words(400),
+    **{key: _one_of(names) for key, names in STEP_WORDS.items()},
+    "settings": ("a table of keys of the mission", lambda value: isinstance(value, dict)),
+    "push": (
+        "a table with force and duration, as { force = [2, 0, 0], duration = 1.0 }",
+        lambda value: isinstance(value, dict),
+    ),
+    "pause": ("true or false", lambda value: isinstance(value, bool)),
+}
+_PUSH: dict[str, Rule] = {
+    "force": ("three numbers, N", lambda v: isinstance(v, list) and len(v) == 3 and all(map(_is_number, v))),
+    "duration": ("from 0.1 to 60 s", lambda value: _is_number(value) and 0.1 <= value <= 60.0),
+}
+
+
+def _check_script(script: Mapping[str, Any], missions: Collection[str]) -> None:
+    """Reject keys and values that the page would refuse, but for settings, which depend on the flight."""
+    tables = "one table [[steps]] or more", lambda v: isinstance(v, list) and {dict} == {type(step) for step in v}
+    _check("", script, {"title": _words(80), "mission": _one_of(missions), "steps": tables}, ("steps",))
+    for place, step in enumerate(script["steps"], 1):
+        _check(where := f"step {place}: ", step, _STEP, ("text",))
+        if "push" in step:
+            _check(f"{where}push.", step["push"], _PUSH, _PUSH)
+
+
+def _check(where: str, table: Mapping[str, Any], rules: Mapping[str, Rule], needed: Collection[str]) -> None:
+    for key in needed:
+        if key not in table:
+            raise InputError(f"{where}{key} is missing: must be {rules[key][0]}")
+    for key, value in table.items():
+        if key not in rules:
+            raise InputError(f"{where}{key} is no key here: must be one of {', '.join(rules)}")
+        allowed, fits = rules[key]
+        if not fits(value):
+            raise InputError(f"{where}{key} = {shown(value)}: must be {allowed}")
+
+
+def with_script(
+    files: Mapping[str, bytes], script: str | Path | None, missions: Collection[str]
+) -> Mapping[str, bytes]:
+    """The files of a page that begins with the script of a lecture, if there is one, for one of some missions.
 
     Raises:
-        InputError: the script cannot be read, is longer than `MAX_SCRIPT`, or is no TOML file with steps.
+        InputError: the script cannot be read, is longer than `MAX_SCRIPT`, is no TOML file, or has a key or a value
+            that the page would refuse. The page checks `settings`.
     """
     if script is None:
         return files
@@ -102,8 +168,10 @@ def with_script(files: Mapping[str, bytes], script: str | Path | None) -> Mappin
         tables = toml_tables(text := content.decode("utf-8-sig"))
     except (ValueError, RecursionError) as error:
         raise InputError(f"--script {script} is not valid TOML: {error}") from None
-    if not isinstance(steps := tables.get("steps"), list) or not steps:
-        raise InputError(f"--script {script}: steps = {shown(steps)}: must be one table [[steps]] or more")
+    try:
+        _check_script(tables, missions)
+    except InputError as error:
+        raise InputError(f"--script {script}: {error}") from None
     return with_element(files, data_element("script", {"name": path.name, "text": text}))
 
 

@@ -109,7 +109,9 @@ class Film:
         image = self._studio.picture(time, view, cell)
         push = float(np.linalg.norm(self.stage.push(time)))
         notes = [self.stage.name, f"{time:.2f} s{note}", f"grid {cell:g} m"]
-        notes += [f"push {push:.1f} N"] if self.stage.is_push_shown(push) else []
+        notes += (
+            [f"push {push:.1f} N" if push >= 1.0 else f"push {push:.2g} N"] if self.stage.is_push_shown(push) else []
+        )
         height = max(10, self._size[1] // 40)
         place = height, self._size[1] - 2 * height
         ImageDraw.Draw(image).text(place, "     ".join(notes), fill=INK, font=_font(height))
@@ -131,12 +133,12 @@ def look_at(target: Array, azimuth: float, elevation: float, distance: float, wi
 
 
 def _smoothed(time: Array, path: Array) -> Array:
-    """A path (T, 3), smoothed by a running mean: the target of a following camera."""
+    """A path (T, 3), smoothed by a running mean that leaves its ends: the target of a following camera."""
     if len(time) < 3:
         return path
     step = float(np.median(np.diff(time)))
-    width = max(1, min(len(time), round(FOLLOWING / max(step, 1e-9))))
-    padded = np.pad(path, ((width // 2, width - 1 - width // 2), (0, 0)), mode="edge")
+    width = 1 + 2 * min((len(time) - 1) // 2, round(FOLLOWING / max(step, 1e-9) / 2.0))  # odd: it has a middle
+    padded = np.pad(path, ((width // 2, width // 2), (0, 0)), mode="reflect", reflect_type="odd")
     sums = np.vstack([np.zeros(3), padded.cumsum(axis=0)])
     return (sums[width:] - sums[:-width]) / width
 

@@ -22,11 +22,11 @@ from tandemlift.pictures.drawing.panels import (
     HIGH,
     LOW,
     MOST,
-    START,
     fit,
     is_disturbed,
     legend_above,
     line,
+    scaling,
     time_axis,
 )
 from tandemlift.pictures.drawing.style import GREY, look, page_figure, points, styled
@@ -48,10 +48,14 @@ def legend_of_flights(figure: Figure, flights: Flights, place: str = "outside up
 
 
 class Panel(NamedTuple):
-    """A component of a channel over time: title, unit, and of each flight that has it its place and its values (T,)."""
+    """A component of a channel over time: title, unit, and of each flight that has it its place and its values (T,).
+
+    `label`: of the value axis, where it is the first panel of a row.
+    """
 
     title: str
     unit: str
+    label: str
     series: list[tuple[int, Flight, Array]]
 
 
@@ -65,11 +69,19 @@ def _rows(flights: Flights, channel: str) -> list[list[Panel]]:
     unit = info.unit.replace("rad", "°").replace("^2", "²") if info.unit != "1" else ""
     scale = np.degrees(1.0) if "°" in unit else 1.0
     series = [(place, flight, scale * np.atleast_2d(flight[channel].T).T) for place, flight in having]
+    titles, label, by_rotor = (
+        [n.replace("_", " ") for n in column_names(channel, info, shape)],
+        unit,
+        info.per == "rotor",
+    )
+    if by_rotor:
+        titles = [f"quadrotor {i // ROTORS + 1}, rotor {i % ROTORS + 1}" for i in range(len(titles))]
+        label = f"{channel.replace('_', ' ')}\n({unit})"
     panels = [
-        Panel(name.replace("_", " "), unit, [(k, f, v[:, i]) for k, f, v in series if i < v.shape[1]])
-        for i, name in enumerate(column_names(channel, info, shape))
+        Panel(title, unit, label, [(k, f, v[:, i]) for k, f, v in series if i < v.shape[1]])
+        for i, title in enumerate(titles)
     ]
-    across = AXES if info.per != "rotor" and len(panels) % AXES == 0 else min(len(panels), ROTORS)
+    across = AXES if not by_rotor and len(panels) % AXES == 0 else min(len(panels), ROTORS)
     return [panels[i : i + across] for i in range(0, len(panels), across)][:MOST]
 
 
@@ -79,8 +91,8 @@ def _draw(ax: Axes, panel: Panel) -> bool:
     for place, flight, values in panel.series:
         line(ax, flight.time, values, **look(place))
     scale = [one for one in panel.series if not one[1].ending] or panel.series
-    cut = any(is_disturbed(flight.time, values[:, None], (least,)) for _, flight, values in scale)
-    fit(ax, *(values[flight.time > START] if cut else values for _, flight, values in scale), least=least)
+    cut = any(is_disturbed(flight, values[:, None], (least,)) for _, flight, values in scale)
+    fit(ax, *(scaling(flight, values, cut) for _, flight, values in scale), least=least)
     ax.axhline(0.0, color=GREY, lw=0.4, zorder=0)
     ax.set_title(panel.title + (CUT if cut else ""), fontsize=points(8), pad=2)
     return cut
@@ -100,8 +112,8 @@ def over_time(*channels: str) -> Overlay:
             axes = [figure.add_subplot(grid[i, wide * j : wide * (j + 1)]) for j in range(len(row))]
             for ax, panel in zip(axes, row, strict=True):
                 cut |= _draw(ax, panel)
-                time_axis(ax, longest, label=last)
-            axes[0].set_ylabel(row[0].unit)
+                time_axis(ax, longest, label=last, crash=len(flights) == 1)
+            axes[0].set_ylabel(row[0].label)
             first.append(axes[0])
         figure.align_ylabels(first)
         if cut:

@@ -13,8 +13,8 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from tandemlift.core.types import Array
-from tandemlift.flight.record import Flight
-from tandemlift.pictures.drawing.style import COMPONENTS, PALE, StyledFigure, page_figure, points
+from tandemlift.flight.record import Flight, counted_until
+from tandemlift.pictures.drawing.style import COMPONENTS, INK, PALE, StyledFigure, page_figure, points
 
 Mask = NDArray[np.bool_]
 Indices = NDArray[np.intp]
@@ -92,8 +92,13 @@ def components(ax: Axes, time: Array, values: Array, **look: Any) -> list[Line2D
     return [line(ax, time, values[:, i], **COMPONENTS[i], **look) for i in range(3)]
 
 
-def time_axis(ax: Axes, flight: Flight, label: bool = True, until: float | None = None) -> None:
-    """Span the time until `until` [s], else the flown time, or one log interval if there is but one sample."""
+def time_axis(ax: Axes, flight: Flight, label: bool = True, until: float | None = None, crash: bool = True) -> None:
+    """Span the time until `until` [s], else the flown time, or one log interval if there is but one sample.
+
+    With `crash`, a dotted line marks a crash after which the flight goes on.
+    """
+    if crash and (at := counted_until(flight)) is not None:
+        ax.axvline(at, color=INK, lw=0.8, ls=(0, (1, 1.5)), zorder=4, gid="crash")
     last = until or (float(flight.time[-1]) if len(flight.time) else 0.0)
     last = last or float(flight.mission["mission"]["log_interval"])
     ax.set_xlim(-0.012 * last, last)  # the start stands off the frame, which would hide how it decays
@@ -109,6 +114,12 @@ def extent(*values: Array) -> tuple[float, float]:
     flat = np.concatenate([drawable(np.ravel(v)) for v in values])
     known = flat[np.isfinite(flat)]
     return (float(known.min()), float(known.max())) if len(known) else (0.0, 0.0)
+
+
+def scaling(flight: Flight, values: Array, late: bool = False) -> Array:
+    """The values (T, …) that set a scale: up to a crash after which the flight goes on; `late`: after the start."""
+    crash, time = counted_until(flight), flight.time
+    return values[(time > (START if late else -np.inf)) & (time <= (np.inf if crash is None else crash))]
 
 
 def value_ticks() -> MaxNLocator:
@@ -171,10 +182,10 @@ def _span(values: Array) -> float:
     return high - low
 
 
-def is_disturbed(time: Array, values: Array, least: Sequence[float]) -> bool:
+def is_disturbed(flight: Flight, values: Array, least: Sequence[float]) -> bool:
     """Whether any of the values (T, n) spans far more in the first second than afterwards; `least`: (n) that count."""
+    time = scaling(flight, flight.time)
     if not len(time) or time[-1] < LONG:
         return False
-    late = time > START
-    spans = ((_span(column), _span(column[late])) for column in values.T)
+    spans = ((_span(scaling(flight, column)), _span(scaling(flight, column, late=True))) for column in values.T)
     return any(whole > DISTURBED * max(after, size) for (whole, after), size in zip(spans, least, strict=True))

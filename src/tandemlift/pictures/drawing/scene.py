@@ -25,6 +25,7 @@ UP = np.array([-np.sin(ELEVATION) * np.cos(AZIMUTH), -np.sin(ELEVATION) * np.sin
 NEAR = np.cross(RIGHT, UP)
 
 CELLS = 14  # at most, along the longest side
+WIDE, HIGH = 0.62, 1.1  # of a digit's size: room that it takes across and along, with what is around it
 TOUCHING = np.array([0.05, 0.3, 0.3])  # of a cell: smaller excesses over the box do not lengthen it
 TALLEST = 5.2  # in
 ROOM = np.array([0.4, 0.3, 0.5, 0.36])  # in, for labels around text of `TEXT`: left, bottom, right, top
@@ -47,10 +48,12 @@ class Scene3D:
         axes: plain axes, in metres on paper.
         box: (3, 2) lower and upper ends of the box [m, world axes], multiples of `cell` but for a floor that is there.
         cell: of the grid [m].
+        stands: whether the box stands on a floor that is there.
     """
 
     def __init__(self, points: Array, floor: float | None = None) -> None:
         self.cell, self.box = _box(points)
+        self.stands = floor is not None
         if floor is not None:
             self.box[2] = floor, max(self.box[2, 1], floor + self.cell)
         corners = on_paper(np.stack(np.meshgrid(*self.box), axis=-1).reshape(-1, 3))
@@ -64,6 +67,7 @@ class Scene3D:
         corner = (size - inner - room) / 2.0 + around[:2]
         self.figure = StyledFigure(size[0], size[1], layout=None)
         self.axes: Axes = self.figure.add_axes((*(corner / size), *(inner / size)))
+        self._dots = 72.0 * inner[0] / (high - low)[0]  # pt on paper, of a metre
         self.axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
         self.axes.set_axis_off()
         if floor is not None:
@@ -112,7 +116,10 @@ class Scene3D:
         texts = [f"{value + 0.0:.{digits}f}".replace("-", "−") for value in values]
         spots = on_paper(places)
         look: dict[str, Any] = {"textcoords": "offset points", "annotation_clip": False}
-        for text, spot in list(zip(texts, spots, strict=True))[:: -(-len(texts) // (CELLS + 1))]:
+        apart = np.abs(spots[-1] - spots[0]) / max(len(spots) - 1, 1) * self._dots  # pt, from one number to the next
+        size = points(7.5) * np.array([WIDE * max(map(len, texts)), HIGH])
+        each = max(1, int(np.ceil(np.min(size / np.maximum(apart, 1e-9)) - 1e-9)))
+        for text, spot in list(zip(texts, spots, strict=True))[::each]:
             self.axes.annotate(text, spot, offset, fontsize=points(7.5), ha=across, va=along, **look)
         beside = spots[-1] if axis == "z" else spots.mean(axis=0)
         self.axes.annotate(f"${axis}$ (m)", beside, name, ha="left" if axis == "y" else "center", va="center", **look)

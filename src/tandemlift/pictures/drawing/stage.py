@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from tandemlift.core.errors import InputError
-from tandemlift.core.types import Array
+from tandemlift.core.types import GRAVITY, Array
 from tandemlift.core.vector import Quat
 from tandemlift.engines.models.visuals import vehicle_shapes
 from tandemlift.flight.record import Flight
@@ -15,7 +15,7 @@ from tandemlift.parts.mechanics.rotation import rotation_from_quaternion, world_
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 ARROW, SHORTEST = 0.9, 0.18  # m, length of the arrow for the strongest push of the flight, and for the faintest
-FAINTEST = 0.03  # fraction of the strongest push below which a push is not drawn
+FAINTEST, WEAK = 0.03, 0.0015  # fractions of the strongest push, and of the weight: a push below is not drawn
 
 
 class FlightStage:
@@ -45,6 +45,7 @@ class FlightStage:
         self._pushes, self._moments = flight["push_force"][sound], flight["push_moment"][sound]
         self._strongest = float(np.linalg.norm(self._pushes, axis=1).max())
         self.vehicle = Vehicle.from_mission(flight.mission)
+        self._faintest = max(FAINTEST * self._strongest, WEAK * GRAVITY * self.vehicle.mass)
         self.reach = max(float(np.linalg.norm(s.position)) + max(s.size) / 2.0 for s in vehicle_shapes(self.vehicle))
         self.floor = self._floor_of(flight.mission, self.vehicle)
         self.walls = flight.walls
@@ -74,9 +75,9 @@ class FlightStage:
 
     @property
     def strongest_push_time(self) -> float:
-        """Time of the strongest push, or the end of a flight without push [s]."""
+        """Time of the strongest push, or the end of a flight without a push to show [s]."""
         strength = np.linalg.norm(self._pushes, axis=1)
-        return float(self.time[strength.argmax() if self._strongest > 0.0 else -1])
+        return float(self.time[strength.argmax() if self.is_push_shown(self._strongest) else -1])
 
     def checked_time(self, what: str, time: float) -> float:
         """The given time [s], if it lies within the flight.
@@ -94,7 +95,7 @@ class FlightStage:
 
     def is_push_shown(self, strength: float) -> bool:
         """Whether a push of this strength [N] is large enough to be drawn."""
-        return strength > FAINTEST * self._strongest
+        return strength > self._faintest
 
     def arrow(self, time: float) -> tuple[Array, Array] | None:
         """Start (3) and tip (3) [m] of the arrow that shows the push at a time [s]; None without a push to show."""

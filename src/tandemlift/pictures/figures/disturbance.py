@@ -17,7 +17,7 @@ from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.figure import Caption, with_any_of
 from tandemlift.pictures.drawing.overlay import over_time
-from tandemlift.pictures.drawing.panels import components, fit, line, shade, time_axis
+from tandemlift.pictures.drawing.panels import components, fit, line, scaling, shade, time_axis
 from tandemlift.pictures.drawing.style import COMPONENTS, GREY, INK, PALE, column_figure, journal
 
 CAPTION = Caption(
@@ -46,7 +46,7 @@ def _condition(ax: Axes, flight: Flight, error: Array) -> None:
     for part, look, name in ((slice(0, 3), COMPONENTS[0], "position"), (slice(3, 6), COMPONENTS[1], "attitude")):
         line(ax, flight.time, error[:, part].max(axis=1), label=name, **look)
     ax.axhline(1.0, color=INK, lw=0.7, ls=(0, (5, 3)))
-    fit(ax, np.zeros(1), np.ones(1), error, least=1.0)
+    fit(ax, np.zeros(1), np.ones(1), scaling(flight, error), least=1.0)
     ax.set_ylabel("$|\\delta-\\hat{\\delta}|/\\lambda_2$")
     ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, columnspacing=1.2)
 
@@ -62,7 +62,7 @@ def draw(flight: Flight) -> Figure:
     handles, names = list[Any](), ["$x$, roll", "$y$, pitch", "$z$, yaw"]
     for ax, (channel, label, least) in zip(axes, panels, strict=False):
         handles = components(ax, flight.time, flight[channel])
-        fit(ax, np.zeros(1), flight[channel], least=least)
+        fit(ax, np.zeros(1), scaling(flight, flight[channel]), least=least)
         ax.set_ylabel(label)
     if error is not None:
         _condition(axes[2], flight, error)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.figure import Caption, all_flights
 from tandemlift.pictures.drawing.overlay import over_time
-from tandemlift.pictures.drawing.panels import START, fit, is_disturbed, line, time_axis
+from tandemlift.pictures.drawing.panels import START, fit, is_disturbed, line, scaling, time_axis
 from tandemlift.pictures.drawing.style import BLUE, GREY, INK, journal, page_figure
 from tandemlift.pictures.drawing.vehicle import true_weight
 
@@ -32,11 +32,11 @@ LEAST = (1.0, 0.02, 0.02, 0.02)  # N, N m, N m, N m: least spans of the axes
 LABELS = ("$U_1$ (N)", "$U_2$ (N m)", "$U_3$ (N m)", "$U_4$ (N m)")
 
 
-def _panel(ax: Axes, flight: Flight, i: int, part: NDArray[np.bool_], shown: NDArray[np.bool_]) -> None:
-    """Draw input i over the samples `shown`, on a value axis that is scaled to the samples `part`."""
+def _panel(ax: Axes, flight: Flight, i: int, shown: NDArray[np.bool_], late: bool = False) -> None:
+    """Draw input i over the samples `shown`, on a value axis that is scaled to them, or to those after the start."""
     values = flight["thrust"] if i == 0 else flight["moment"][:, i - 1]
     line(ax, flight.time[shown], values[shown], color=BLUE, lw=1.0)
-    fit(ax, values[part], least=LEAST[i])
+    fit(ax, scaling(flight, np.where(shown, values, np.nan), late), least=LEAST[i])
     if i:
         ax.axhline(0.0, color=GREY, lw=0.4, zorder=0)
 
@@ -45,17 +45,16 @@ def _panel(ax: Axes, flight: Flight, i: int, part: NDArray[np.bool_], shown: NDA
 def draw(flight: Flight) -> Figure:
     """Draw U1 [N] with the vehicle's weight, and U2, U3, U4 [N m]; the start apart if it is disturbed."""
     time = flight.time
-    disturbed = is_disturbed(time, np.column_stack([flight["thrust"], flight["moment"]]), LEAST)
-    every, early = np.ones(len(time), dtype=bool), time <= START
+    disturbed = is_disturbed(flight, np.column_stack([flight["thrust"], flight["moment"]]), LEAST)
     figure = page_figure(4.4)
     widths = (1.0, 2.6) if disturbed else (1.0,)
     axes = figure.subplots(4, len(widths), squeeze=False, gridspec_kw={"width_ratios": widths})
     weight = true_weight(flight)
     for i, row in enumerate(axes):
-        _panel(row[-1], flight, i, ~early if disturbed else every, every)
+        _panel(row[-1], flight, i, np.ones(len(time), dtype=bool), late=disturbed)
         time_axis(row[-1], flight, label=i == 3)
         if disturbed:
-            _panel(row[0], flight, i, early, early)
+            _panel(row[0], flight, i, time <= START)
             time_axis(row[0], flight, label=i == 3, until=START)
         row[0].set_ylabel(LABELS[i])
     hover = [ax.axhline(weight, color=INK, lw=0.7, ls=(0, (5, 3)), zorder=0) for ax in axes[0]]

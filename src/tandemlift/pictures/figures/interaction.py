@@ -17,7 +17,7 @@ from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.figure import Caption, all_flights
 from tandemlift.pictures.drawing.overlay import over_time
-from tandemlift.pictures.drawing.panels import extent, line, shade, time_axis, value_ticks
+from tandemlift.pictures.drawing.panels import extent, line, scaling, shade, time_axis, value_ticks
 from tandemlift.pictures.drawing.style import BLUE, INK, PALE, VERMILLION, column_figure, journal
 
 CAPTION = Caption(
@@ -61,7 +61,7 @@ def _panel(ax: Axes, other: Axes, flight: Flight, axis: int) -> list[Any]:
     ax.set_ylabel(f"$F_{{{'xyz'[axis]}}}$ (N)", color=BLUE)
     ax.tick_params(axis="y", colors=BLUE)
     ax.spines["left"].set_color(BLUE)
-    _share_zero(ax, other, np.append(push, (threshold, -threshold)), reference)
+    _share_zero(ax, other, np.append(scaling(flight, push), (threshold, -threshold)), scaling(flight, reference))
     return [force, limits[0], answer]
 
 

@@ -15,7 +15,7 @@ from matplotlib.lines import Line2D
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.figure import Caption, with_any_of
 from tandemlift.pictures.drawing.overlay import over_time
-from tandemlift.pictures.drawing.panels import START, components, fit, fleet_figure, is_disturbed, line, time_axis
+from tandemlift.pictures.drawing.panels import components, fit, fleet_figure, is_disturbed, line, scaling, time_axis
 from tandemlift.pictures.drawing.style import COMPONENTS, GREY, journal
 
 CAPTION = Caption(
@@ -41,8 +41,8 @@ def _panel(ax: Axes, flight: Flight, name: str, first: int, least: float) -> boo
         for i, look in enumerate(COMPONENTS):
             line(ax, flight.time, read[:, i], color=look["color"], **FAINT)
     components(ax, flight.time, shown[0], zorder=3)
-    disturbed = is_disturbed(flight.time, shown[0], (least,) * 3)
-    fit(ax, *(values[flight.time > START] if disturbed else values for values in shown), least=least)
+    disturbed = is_disturbed(flight, shown[0], (least,) * 3)
+    fit(ax, *(scaling(flight, values, disturbed) for values in shown), least=least)
     ax.axhline(0.0, color=GREY, lw=0.4, zorder=0)
     return disturbed
 

@@ -43,8 +43,8 @@ CAPTION = Caption(
     "Path",
     "The path of the centre of mass, with an arrow for each push of the person: it starts where the push acts at its "
     "peak, and its length is proportional to the force, which stands beside it. The vehicle is drawn to scale at a few "
-    "instants, bold at the start and at the end. Dotted lines lead from the pushes straight down to the floor, where "
-    "the path has its shadow; a floor that the vehicle can stand on is filled. Walls are transparent.",
+    "instants, bold at the start and at the end. Dotted lines lead from the pushes straight down to the bottom of "
+    "the box, where the path has its shadow; a floor that the vehicle can stand on is filled. Walls are transparent.",
     "Three-dimensional view of the flown path with an arrow for each push, the vehicle at a few instants, and the "
     "floor and walls if there are any.",
 )
@@ -138,7 +138,7 @@ def _number(scene: Scene3D, ends: Array, newtons: float) -> None:
 
 
 def _legend(scene: Scene3D, found: list[PushArrow], walls: list[WallOutline], handles: list[Any]) -> None:
-    labels = ["path", "its shadow on the floor", "start", "end"]
+    labels = ["path", "its shadow on the floor" if scene.stands else "its shadow", "start", "end"]
     if found:
         handles = [*handles, Line2D([], [], color=VERMILLION, lw=1.6, marker=">", ms=4)]
         labels.append("push")

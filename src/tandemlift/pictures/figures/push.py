@@ -17,7 +17,7 @@ from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.figure import Caption, with_any_of
 from tandemlift.pictures.drawing.overlay import over_time
-from tandemlift.pictures.drawing.panels import fit, legend_above, line, shade, time_axis
+from tandemlift.pictures.drawing.panels import fit, legend_above, line, scaling, shade, time_axis
 from tandemlift.pictures.drawing.style import BLUE, GREY, INK, LIGHT_BLUE, PALE, TAN, VERMILLION, journal, page_figure
 from tandemlift.pictures.drawing.vehicle import body_to_world, true_payload_mass
 
@@ -77,7 +77,8 @@ def _force(ax: Axes, flight: Flight, axis: int) -> list[Any]:
         line(ax, flight.time, measured, zorder=2, **MEASURED),
         *[ax.axhline(side * threshold, zorder=1, **LIMIT) for side in (1.0, -1.0)],
     ]
-    fit(ax, true, estimate, measured, np.array([threshold, -threshold]), least=LEAST_FORCE)
+    drawn = scaling(flight, np.column_stack([true, estimate, measured]))
+    fit(ax, drawn, np.array([threshold, -threshold]), least=LEAST_FORCE)
     ax.set_ylabel(f"$F_{'xyz'[axis]}$ (N)")
     return handles[:4]
 
@@ -91,7 +92,7 @@ def _place(ax: Axes, flight: Flight) -> None:
         line(ax, flight.time, place, zorder=3, **TRUE)
     line(ax, flight.time, point, zorder=4, **ESTIMATE)
     length = flight.vehicle.payload.span
-    fit(ax, point, *true, least=LEAST_PLACE)
+    fit(ax, *(scaling(flight, place) for place in (point, *true)), least=LEAST_PLACE)
     if length:
         ax.set_ylim(-BEYOND * length / 2.0, BEYOND * length / 2.0)
     ax.axhline(0.0, color=GREY, lw=0.4, zorder=1)
@@ -102,7 +103,7 @@ def _mass(ax: Axes, flight: Flight) -> None:
     true, estimate = true_payload_mass(flight), flight["payload_mass_estimate"]
     ax.axhline(true, zorder=1, **TRUE)
     line(ax, flight.time, estimate, zorder=4, **ESTIMATE)
-    fit(ax, estimate, np.array([true]), least=LEAST_MASS)
+    fit(ax, scaling(flight, estimate), np.array([true]), least=LEAST_MASS)
     ax.set_ylabel("payload (kg)")
 
 
@@ -110,7 +111,7 @@ def _disagreement(ax: Axes, flight: Flight, limit: float) -> None:
     values = flight["sensor_disagreement"]
     line(ax, flight.time, values, zorder=4, **ESTIMATE | {"ls": "-"})
     ax.axhline(limit, zorder=1, **LIMIT)
-    fit(ax, values, np.array([0.0, limit]), least=LEAST_FORCE)
+    fit(ax, scaling(flight, values), np.array([0.0, limit]), least=LEAST_FORCE)
     ax.set_ylabel("sensors\ndisagree (N)")
 
 

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.figure import Caption, all_flights
 from tandemlift.pictures.drawing.overlay import over_time
-from tandemlift.pictures.drawing.panels import fit, line, time_axis
+from tandemlift.pictures.drawing.panels import fit, line, scaling, time_axis
 from tandemlift.pictures.drawing.style import BLUE, GREY, VERMILLION, journal, page_figure
 
 CAPTION = Caption(
@@ -40,7 +40,7 @@ def draw(flight: Flight) -> Figure:
         for row, (ax, (channel, _, least)) in enumerate(zip(axes[:, axis], ROWS, strict=True)):
             values = flight[channel][:, axis]
             line(ax, flight.time, values, color=VERMILLION if row else BLUE, lw=1.2)
-            fit(ax, values, least=least)
+            fit(ax, scaling(flight, values), least=least)
             ax.axhline(0.0, color=GREY, lw=0.4, zorder=0)
             time_axis(ax, flight, label=row == 2)
     for ax, (_, label, _) in zip(axes[:, 0], ROWS, strict=True):

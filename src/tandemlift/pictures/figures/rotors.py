@@ -19,7 +19,7 @@ from tandemlift.flight.channels import FLOWN
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.figure import Caption, with_any_of
 from tandemlift.pictures.drawing.overlay import over_time
-from tandemlift.pictures.drawing.panels import extent, fleet_figure, line, time_axis, value_ticks
+from tandemlift.pictures.drawing.panels import extent, fleet_figure, line, scaling, time_axis, value_ticks
 from tandemlift.pictures.drawing.style import BLUE, GREY, INK, TAN, VERMILLION, journal, points
 
 CAPTION = Caption(
@@ -86,7 +86,9 @@ def _panel(ax: Axes, flight: Flight, column: int, most: float, fault: dict[str, 
     line(ax, flight.time, flight["rotor_commands"][:, column], zorder=2, **COMMAND)
     line(ax, flight.time, thrust, zorder=3, **THRUST)
     _limits(ax, flight, most, fault)
-    low, high = extent(thrust, np.array([0.0, most]))  # near the floor a rotor gives more than its most
+    low, high = extent(
+        scaling(flight, thrust), np.array([0.0, most])
+    )  # near the floor a rotor gives more than its most
     ax.set_ylim(low - MARGIN * most, high + MARGIN * most)
     ax.yaxis.set_major_locator(value_ticks())
 

@@ -17,7 +17,7 @@ from matplotlib.patches import Patch
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.figure import Caption, with_any_of
 from tandemlift.pictures.drawing.overlay import over_time
-from tandemlift.pictures.drawing.panels import components, fit, legend_above, line, shade, time_axis
+from tandemlift.pictures.drawing.panels import components, fit, legend_above, line, scaling, shade, time_axis
 from tandemlift.pictures.drawing.style import BLUE, COMPONENTS, GREY, INK, PALE, journal, page_figure
 from tandemlift.pictures.drawing.surroundings import clearance, floor_height
 from tandemlift.pictures.drawing.vehicle import true_weight
@@ -45,7 +45,7 @@ HEIGHT = "height above\nfloor (m)"
 
 def _vector(ax: Axes, flight: Flight, name: str, least: float) -> None:
     components(ax, flight.time, flight[name], zorder=3)
-    fit(ax, flight[name], least=least)
+    fit(ax, scaling(flight, flight[name]), least=least)
     ax.axhline(0.0, color=GREY, lw=0.4, zorder=1)
     if name == "contact_force":
         ax.axhline(true_weight(flight), color=INK, lw=0.7, ls=(0, (5, 3)), zorder=2)
@@ -54,7 +54,7 @@ def _vector(ax: Axes, flight: Flight, name: str, least: float) -> None:
 def _height(ax: Axes, flight: Flight, floor: float) -> None:
     values = clearance(flight, floor)
     line(ax, flight.time, values, color=BLUE, lw=1.2, zorder=3)
-    fit(ax, values, np.zeros(1), least=LEAST_HEIGHT)
+    fit(ax, scaling(flight, values), np.zeros(1), least=LEAST_HEIGHT)
     ax.axhline(0.0, color=GREY, lw=0.4, zorder=1)
 
 

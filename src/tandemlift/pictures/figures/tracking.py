@@ -18,7 +18,7 @@ from matplotlib.ticker import EngFormatter
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.figure import Caption, all_flights
 from tandemlift.pictures.drawing.overlay import over_time
-from tandemlift.pictures.drawing.panels import drawable, fit, line, normalised, time_axis
+from tandemlift.pictures.drawing.panels import drawable, fit, line, normalised, scaling, time_axis
 from tandemlift.pictures.drawing.style import (
     ACTUAL,
     COMPONENTS,
@@ -93,7 +93,7 @@ def _trajectories(axes: Sequence[Axes], flight: Flight, column: FigureColumn) ->
     for i, ax in enumerate(axes):
         actual, desired = (flight[name][:, i] * column.scale for name in (column.actual, column.desired))
         handles = [line(ax, flight.time, actual, **ACTUAL), line(ax, flight.time, desired, **DESIRED)]
-        fit(ax, actual, desired, least=column.least)
+        fit(ax, scaling(flight, actual), scaling(flight, desired), least=column.least)
         ax.set_ylabel(f"${column.symbols[i]}$ ({column.unit})", labelpad=1)
         time_axis(ax, flight, label=False)
     return handles
@@ -109,9 +109,10 @@ def _mark_findings(ax: Axes, flight: Flight) -> None:
 def _errors(ax: Axes, flight: Flight, column: FigureColumn) -> None:
     """Fill the bottom panel of a column with the errors over their largest absolute values."""
     for i, look in enumerate(COMPONENTS):
-        error, peak = normalised(drawable(flight[column.error][:, i]))
+        error = drawable(flight[column.error][:, i])
+        _, peak = normalised(scaling(flight, error))
         size = f" / {size_of(peak * column.scale, column.unit)}" if peak else ": 0"
-        line(ax, flight.time, error, label=f"${column.symbols[i]}${size}", **look)
+        line(ax, flight.time, error / peak if peak else 0.0 * error, label=f"${column.symbols[i]}${size}", **look)
     ax.axhline(0.0, color=GREY, lw=0.4, zorder=0)
     ax.set_ylim(-1.1, 1.1)
     ax.set_yticks([-1, 0, 1])

@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import FLIGHT_FILE
 from tandemlift.core.types import Progress
-from tandemlift.flight.record import Flight
+from tandemlift.flight.record import Flight, counted_until
 from tandemlift.missions import built_in, format_toml, load_mission, tables_of
 from tandemlift.pictures.figures.registry import captions, figures_for
 from tandemlift.pictures.report.metric_tables import write_metric_tables
@@ -126,6 +126,7 @@ def write_report(
         packed=replay and base64.b64encode(gzip.compress(replay.encode(), mtime=0)).decode(),
         verdict=_verdict(flight),
         flight=flight,
+        crash=counted_until(flight),
         place=place_text,
         setup=setup_table(flight),
         figures=[shown_figure(name, png, words[name]) for name, png in _pngs(flight, figures).items()],

@@ -96,7 +96,7 @@ def _residuals(found: Mapping[str, Any]) -> PageTable:
         numbers = map(number, (found["noise"][name], max(map(abs, w["autocorrelation"])), w["bound"]))
         predicted = [DASH if ratio is None else number(ratio) for ratio in ratios]
         lines.append([code(name), *numbers, "yes" if w["white"] else strong("no"), number(w["factor"]), *predicted])
-    return PageTable("compared", (*titles, "Held back", "Another flight"), lines)
+    return PageTable("compared keys", (*titles, "Held back", "Another flight"), lines)
 
 
 @styled

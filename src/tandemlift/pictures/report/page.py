@@ -127,7 +127,7 @@ def split_unit(name: str) -> tuple[str, str]:
     unit = "" if metric.units else metric.unit_of(0)
     stem = name.removesuffix("_" + re.sub("[ /]", "_", unit.lower())) if unit else name
     words = re.sub(r"(\d)s\b", r"\1 s", stem.replace("_", " ").replace("rmse", "RMSE"))
-    words = "wall time" if words == "wall" else words
+    words = "wall time" if words == "wall" else re.sub("^(thrust|moment) m", r"commanded \1 m", words)
     return words[:1].upper() + words[1:], unit
 
 

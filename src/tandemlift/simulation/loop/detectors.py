@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from tandemlift.core.algebra import absolute, maximum, where
-from tandemlift.core.law import elementwise, law
+from tandemlift.core.law import law
 from tandemlift.core.types import GRAVITY, Number, PerRotor
 from tandemlift.core.vector import Absent, Vec3, dot, total
 from tandemlift.parts.estimation.push_confirmation import refuted_push
@@ -39,7 +39,7 @@ from tandemlift.simulation.loop.push_detectors import (
     push_to_answer,
     unpushed_step,
 )
-from tandemlift.simulation.loop.running_metrics import at_limit
+from tandemlift.simulation.loop.running_metrics import at_limit, counted
 
 
 class FindingLimits(NamedTuple):
@@ -123,12 +123,6 @@ ASLEEP = Detectors(
 def usable_rotors(how: ConstrainedAllocation, left: Number, t: Number) -> PerRotor:
     """Above 0 for rotors usable at time t [s]: a number for all, or a set; `left`: of a detected loss."""
     return limits_at(how, left, t)
-
-
-@elementwise
-def counted(at_its_limit: Number, usable: Number) -> Number:
-    """1 for a usable rotor at its limit, else 0."""
-    return where(usable > 0.0, at_its_limit, 0.0)
 
 
 @law(absent=0.0)

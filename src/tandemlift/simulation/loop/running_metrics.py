@@ -17,6 +17,9 @@ from tandemlift.parts.interaction.outside_push import OutsidePush, held_by_anyon
 from tandemlift.parts.interaction.person import PersonState
 from tandemlift.parts.interaction.virtual_hand import VirtualHandState
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion, wrap_angle
+from tandemlift.parts.rotors.allocation import ConstrainedAllocation, Mixer
+from tandemlift.parts.rotors.detection import left_of
+from tandemlift.parts.rotors.rotor_faults import efficiency_at
 from tandemlift.parts.rotors.rotors import Rotors
 from tandemlift.simulation.loop.log_sample import Sample
 from tandemlift.simulation.loop.sources import EstimatedFlight
@@ -199,10 +202,22 @@ def at_limit(command: Number, most: Number) -> Number:
     return where(command > 0.0, where(command < most, 0.0, 1.0), 1.0)
 
 
+@elementwise
+def counted(at_its_limit: Number, usable: Number) -> Number:
+    """1 for a usable rotor at its limit, else 0."""
+    return where(usable > 0.0, at_its_limit, 0.0)
+
+
+@law(instead={Mixer: 1.0})
+def known_efficiency(how: ConstrainedAllocation, left: Number, t: Number) -> PerRotor:
+    """The fraction of its thrust that the pilot expects of each rotor at time t [s]; `left`: of a detected loss."""
+    return efficiency_at(how.known, t) * left
+
+
 @law(absent=0.0)
-def saturated(rotors: Rotors, commands: PerRotor) -> Number:
-    """1 if any rotor is commanded to a limit or beyond, else 0."""
-    return minimum(total(at_limit(commands, rotors.max_thrust)), 1.0)
+def saturated(rotors: Rotors, commands: PerRotor, usable: Number) -> Number:
+    """1 if any usable rotor is commanded to a limit or beyond, else 0."""
+    return minimum(total(counted(at_limit(commands, rotors.max_thrust), usable)), 1.0)
 
 
 @choice(absent="person")
@@ -234,9 +249,10 @@ def push_errors(sums: EstimateErrors, known: EstimatedFlight, x: Sample) -> Push
 
 
 @law
-def contribution_of(model: Any, output: Any, x: Sample, outside: OutsidePush | Absent) -> StepContribution:
-    """The contribution of a step to the running metrics; `outside`: of its `StepInputs`."""
-    decision = output.decision
+def contribution_of(model: Any, output: Any, x: Sample, outside: OutsidePush | Absent, t: Number) -> StepContribution:
+    """The contribution of a step at time t [s] to the running metrics; `outside`: of its `StepInputs`."""
+    decision, left = output.decision, left_of(model.pilot.detection, model.flight_state.memory.detection)
+    usable = known_efficiency(model.pilot.allocation, left, t)
     return StepContribution(
         position=x.reference_position - x.position,
         velocity=x.reference_velocity - x.velocity,
@@ -246,7 +262,7 @@ def contribution_of(model: Any, output: Any, x: Sample, outside: OutsidePush | A
         moment=x.moment,
         push=x.push_force,
         power=dot(x.push_force, x.velocity) + dot(x.push_moment, x.rates),
-        saturated=saturated(model.rotors, decision.thrusts) * thrust_fraction(decision.guidance.running),
+        saturated=saturated(model.rotors, decision.thrusts, usable) * thrust_fraction(decision.guidance.running),
         clearance=clearance(model.plant.walls, model.flight_state.near, model.plant.frame, model.flight_state.state),
         effort=effort(model.flight_state.person, x, outside),
         push_active=push_active(decision.guidance.channels),

@@ -234,7 +234,7 @@ def finish_sample(
     impulse = impulse_after(model.limits.strike, before.impulse, moved.readings.contact_force, dt)
     number = ending_number(model.limits, moved.state, impulse)
     crash, ended = with_aftermath(model.limits.aftermath, before.crash, number, moved.state, impulse, t, dt)
-    metrics = count(before.metrics, contribution_of(model, output, sample, inputs.outside))
+    metrics = count(before.metrics, contribution_of(model, output, sample, inputs.outside, t))
     after = FlightState(
         state=moved.state,
         memory=output.memory,

@@ -142,9 +142,22 @@ def test_the_command_writes_a_page_that_begins_with_the_script_that_ships(browse
     page.context.close()
 
 
+STEPS = "[[steps]]\ntext = 'a'\n[[steps]]\ntext = 'b'\n"
+
+
 @pytest.mark.parametrize(
     ("text", "reason"),
-    [("[[steps]]\ntext = ", "is not valid TOML"), ("\ufefftitle = 'a'", "must be one table [[steps]] or more")],
+    [
+        ("[[steps]]\ntext = ", "is not valid TOML"),
+        ("\ufefftitle = 'a'", "must be one table [[steps]] or more"),
+        (f"misson = 'hover'\n{STEPS}", "misson is no key here: must be one of title, mission, steps"),
+        (f"mission = 'hovr'\n{STEPS}", 'mission = "hovr": must be one of hover'),
+        (f"{STEPS}spotlight = 'hight'", 'step 2: spotlight = "hight": must be one of push, moment, speed, x, '),
+        (f"{STEPS}camra = 'behind'", "step 2: camra is no key here: must be one of text, spotlight, camera, "),
+        (f"{STEPS}push = {{ force = [1, 0, nan], duration = 1 }}", "step 2: push.force = [1, 0, nan]: must be three"),
+        (f"{STEPS}push = {{ duration = 1 }}", "step 2: push.force is missing: must be three numbers, N"),
+        ("[[steps]]\npause = true", "step 1: text is missing: must be a text of 1 to 400 characters"),
+    ],
 )
 def test_the_command_refuses_what_is_no_script(tmp_path, text, reason):
     (tmp_path / "talk.toml").write_text(text, "utf-8")

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from tandemlift.analysis.certification.certificate import Certificate
@@ -144,14 +145,15 @@ def write_certificate(certificate: Certificate, folder: Path) -> list[Path]:
         check_typesetting()
     except InputError:
         return written
-    parts = folder / "pdf"
-    for name, figure in figures.items():
-        save(figure, parts / f"{name}.pdf")
     shown = [{"file": f"{n}.pdf", "title": CAPTIONS[n].title, "text": CAPTIONS[n].text} for n in figures]
     data = {"mission": certificate.mission, "verdict": verdict, "tiers": tiers, "figures": shown, "versions": versions}
-    _write(parts / "report.json", json.dumps(data, ensure_ascii=False, allow_nan=False))
-    _write(parts / SOURCE, (DATA / "report" / "certificate.typ").read_text("utf-8"))
-    typeset(parts, folder / PDF)
+    with TemporaryDirectory() as aside:
+        parts = Path(aside)
+        for name, figure in figures.items():
+            save(figure, parts / f"{name}.pdf")
+        _write(parts / "report.json", json.dumps(data, ensure_ascii=False, allow_nan=False))
+        _write(parts / SOURCE, (DATA / "report" / "certificate.typ").read_text("utf-8"))
+        typeset(parts, folder / PDF)
     return [*written, folder / PDF]
 
 

@@ -34,6 +34,11 @@ def count(value: int) -> str:
     return f"{value:,}".replace(",", THIN)
 
 
+def counted(value: int, noun: str) -> str:
+    """A number of things, such as 2 rows."""
+    return f"{count(value)} {noun}{'' if value == 1 else 's'}"
+
+
 def percent(value: float) -> str:
     """A share in percent, to three digits."""
     text = f"{100.0 * value:.3g}"
@@ -55,12 +60,12 @@ def verdict(rows: StudyRows) -> Verdict:
     head, said = "No flight", "."
     if failed:
         part = share(failed, flown)
-        head = f"{count(failed)} of {count(flown)} flights failed"
+        head = f"{count(failed)} of {count(flown)} flights failed" if flown > 1 else "The flight failed"
         low, high = percent(part.low), percent(part.high)
         said = f". {percent(part.value)} fail, with 95 % confidence between {low} and {high}."
     elif flown:
         most, high = percent(upper_bound(0, flown)), percent(share(0, flown).high)
-        head = f"None of {count(flown)} flights failed"
+        head = f"None of {count(flown)} flights failed" if flown > 1 else "The flight did not fail"
         said = f". With 95 % confidence, at most {most} fail "
         said += f"(one-sided bound; the intervals in the tables are two-sided: 0 to {high})."
     if kinds := rows.finding_counts:
@@ -69,9 +74,9 @@ def verdict(rows: StudyRows) -> Verdict:
         head += f"; {count(having)} {'has' if having == 1 else 'have'} findings"
         said = f", most often {kind} ({percent(int(has.sum()) / flown)}){said}"
     if refused := int(rows.refused.sum()):
-        said += f" {count(refused)} rows could not be flown and were refused."
+        said += f" {counted(refused, 'row')} could not be flown and {'was' if refused == 1 else 'were'} refused."
     if missing := rows.study.missing:
-        said += f" {count(missing)} of {count(rows.study.plan.count)} rows are missing."
+        said += f" {count(missing)} of {count(rows.study.plan.count)} rows {'is' if missing == 1 else 'are'} missing."
     return Verdict(head, said, "missed" if failed or refused or missing or kinds else "")
 
 
@@ -90,7 +95,7 @@ def what_was_flown(study: Study) -> Iterator[tuple[str, str]]:
         yield f"Case {case.name}", _changes(case.set) or "as it is"
     for key, values in plan.grid.items():
         listed = ", ".join(map(shown, values[:MOST_LISTED])) + (", …" if len(values) > MOST_LISTED else "")
-        yield "Grid", f"{key}: {len(values)} values, {listed}{_unit(key)}"
+        yield "Grid", f"{key}: {counted(len(values), 'value')}, {listed}{_unit(key)}"
     for key, distribution in plan.drawn.items():
         said = distribution.model_dump(exclude_defaults=True)
         kind = said.pop("distribution")
@@ -197,7 +202,8 @@ def _quantiles(values: Array, look: QuantityDisplay, low_is_bad: bool) -> Sequen
     median, (low, high) = quantile(known), np.quantile(known, [0.05, 0.95])
     worst = known.min() if low_is_bad else known.max()
     bounds = [number(v) if np.isfinite(v) else DASH for v in (median.low, median.high)]
-    middle = (number(median.value), f"{bounds[0]} to {bounds[1]}")
+    middle: Cell = (number(median.value), f"{bounds[0]} to {bounds[1]}")
+    middle = middle[0] if bounds == [DASH, DASH] else middle  # of few rows there is no interval
     return [count(len(known)), middle, *[number(float(v)) for v in (low, high, worst)]]
 
 
