@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,9 +12,6 @@ from matplotlib.figure import Figure
 from tandemlift.analysis.certification.certificate import Certificate
 from tandemlift.analysis.certification.linear import DISK_PHASE_BAR
 from tandemlift.analysis.linearization.claims import Claim, Tier
-from tandemlift.analysis.linearization.frequency_response import axis_responses
-from tandemlift.analysis.linearization.linear_model import MOST_STATES, LinearModel, modes_of, title_of
-from tandemlift.core.errors import InputError
 from tandemlift.pictures.drawing.figure import Caption
 from tandemlift.pictures.drawing.style import (
     BLUE,
@@ -26,10 +22,8 @@ from tandemlift.pictures.drawing.style import (
     VERMILLION,
     look,
     page_figure,
-    save,
     styled,
 )
-from tandemlift.pictures.report.study.linear_model_figure import Response, draw
 
 CAPTIONS = {
     "margins": Caption(
@@ -197,18 +191,3 @@ def draw_map(tier: Tier) -> Figure:
     bar = figure.colorbar(drawn, ax=axes, label="arm stiffness (N/m)")
     bar.set_ticks(np.log10(levels).tolist(), labels=[f"{level:g}" for level in levels])
     return figure
-
-
-def draw_linear_model(connected: LinearModel, path: Path) -> Path:
-    """Draw the modes of a model and a response into a file: that of its position to a push, or of what it has first.
-
-    Raises:
-        InputError: it has too many states.
-    """
-    if len(connected.states) > MOST_STATES:
-        raise InputError(f"{path}: {len(connected.states)} states are too many to draw; at most {MOST_STATES}")
-    inputs, outputs = ([v.name.rpartition("_")[0] for v in vs] for vs in (connected.inputs, connected.outputs))
-    usual = "push_force" if connected.of == "loop" else "disturbance_force"
-    names = usual if usual in inputs else inputs[0], "position" if "position" in outputs else outputs[0]
-    response = Response(" → ".join(names).replace("_", " "), *axis_responses(connected, *names))
-    return save(draw(title_of(connected), [mode.s for mode in modes_of(connected).modes], response), path)

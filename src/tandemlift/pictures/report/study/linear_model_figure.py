@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -10,6 +11,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from tandemlift.analysis.linearization.frequency_response import frequency_response
+from tandemlift.analysis.linearization.linear_model import MOST_STATES, LinearModel, modes_of, title_of
+from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.pictures.drawing.style import (
     BLUE,
@@ -20,13 +24,15 @@ from tandemlift.pictures.drawing.style import (
     StyledFigure,
     page_figure,
     points,
+    save,
     styled,
 )
 
 LINEAR = 0.1  # 1/s, within which the axes of the poles are linear
 RATIOS = (0.1, 0.3, 0.7)  # damping ratios that are drawn
 ROOM = 2.0  # by how much the axes go beyond the poles
-SMALLEST = 1e-9  # of the largest response: a smaller one is rounding, and not drawn
+LOWEST, HIGHEST, POINTS = 0.02, 0.45, 300  # Hz, of the sample rate; points of a drawn response
+SMALLEST = 1e-12  # of the largest response at a frequency: a smaller one is rounding of the model, and not drawn
 
 
 class Response(NamedTuple):
@@ -36,13 +42,40 @@ class Response(NamedTuple):
         title: names both.
         unit: of the curves' sizes.
         frequencies: [Hz] (F).
-        curves: the response (F) along each axis, by its label.
+        curves: the response (F) along each axis, by its label; NaN where it is only rounding.
     """
 
     title: str
     unit: str
     frequencies: Array
     curves: Mapping[str, NDArray[np.complexfloating]]
+
+
+def response_of(model: LinearModel, input: str, output: str) -> Response:
+    """The responses of a group of outputs to one of inputs, each along its own axis.
+
+    Args:
+        model: the model.
+        input: beginning of the names of inputs, such as "push_force".
+        output: that of outputs, such as "position".
+    """
+    columns, rows = (
+        [i for i, v in enumerate(variables) if v.name.startswith(f"{name}_")]
+        for variables, name in ((model.inputs, input), (model.outputs, output))
+    )
+    frequencies = np.geomspace(LOWEST, HIGHEST / model.step, POINTS)
+    response, pairs = frequency_response(model, frequencies), list(zip(rows, columns, strict=False))
+    # coupling that symmetry forbids is as small as the rounding of the flight's state, next to what is allowed
+    sizes = np.abs(response[:, rows][:, :, columns]).max(axis=(1, 2), initial=0.0)
+    unit_in, unit_out = (v[at[0]].unit if at else "" for v, at in ((model.inputs, columns), (model.outputs, rows)))
+    curves = {
+        f"{model.inputs[j].name[-1]} → {model.outputs[i].name[-1]}": np.where(
+            np.abs(response[:, i, j]) > SMALLEST * sizes, response[:, i, j], np.nan
+        )
+        for i, j in pairs
+    }
+    title = f"{input} → {output}".replace("_", " ")
+    return Response(title, f"{unit_out}/{unit_in}", frequencies, curves)
 
 
 @styled
@@ -81,11 +114,12 @@ def _poles(axes: Axes, s: NDArray[np.complexfloating]) -> None:
 
 def _response(size: Axes, phase: Axes, response: Response) -> None:
     frequencies = response.frequencies
-    largest = max((np.abs(values).max() for values in response.curves.values()), default=0.0)
-    for (label, values), style in zip(response.curves.items(), COMPONENTS, strict=False):
-        curve = np.where(np.abs(values) > SMALLEST * largest, values, np.nan)
+    for (label, curve), style in zip(response.curves.items(), COMPONENTS, strict=False):
+        drawn = np.isfinite(curve)
+        angles = np.full(len(curve), np.nan)
+        angles[drawn] = np.degrees(np.unwrap(np.angle(curve[drawn])))
         size.loglog(frequencies, np.abs(curve), label=label, **style)
-        phase.semilogx(frequencies, np.degrees(np.unwrap(np.angle(np.nan_to_num(curve)))), **style)
+        phase.semilogx(frequencies, angles, **style)
     size.set_title(response.title)
     size.set_ylabel(f"size [{response.unit}]")
     phase.set_ylabel("phase [deg]")
@@ -95,3 +129,18 @@ def _response(size: Axes, phase: Axes, response: Response) -> None:
         axes.grid(True)
         axes.set_xlim(frequencies[0], frequencies[-1])
     size.legend(loc="lower left")
+
+
+def draw_linear_model(connected: LinearModel, path: Path) -> Path:
+    """Draw the modes of a model and a response into a file: that of its position to a push, or of what it has first.
+
+    Raises:
+        InputError: it has too many states.
+    """
+    if len(connected.states) > MOST_STATES:
+        raise InputError(f"{path}: {len(connected.states)} states are too many to draw; at most {MOST_STATES}")
+    inputs, outputs = ([v.name.rpartition("_")[0] for v in vs] for vs in (connected.inputs, connected.outputs))
+    usual = "push_force" if connected.of == "loop" else "disturbance_force"
+    names = usual if usual in inputs else inputs[0], "position" if "position" in outputs else outputs[0]
+    modes = [mode.s for mode in modes_of(connected).modes]
+    return save(draw(title_of(connected), modes, response_of(connected, *names)), path)
