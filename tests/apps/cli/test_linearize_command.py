@@ -40,7 +40,7 @@ def test_the_figure_has_the_inputs_and_outputs_that_were_asked_for(tmp_path, mon
         *("hover", "--inputs", "disturbance_force", "--outputs", "velocity"),
         *("--figure", tmp_path / "m.png", "--out", tmp_path / "m.mat"),
     )
-    assert (code, titles) == (0, ["disturbance force → velocity"])
+    assert (code, titles) == (0, ["disturbance force → velocity: 3 of 9 responses"])
     assert loadmat(tmp_path / "m.mat")["C"].shape[0] == 3
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -15,6 +16,7 @@ from tandemlift.analysis.linearization.frequency_response import frequency_respo
 from tandemlift.analysis.linearization.linear_model import MOST_STATES, LinearModel, modes_of, title_of
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
+from tandemlift.flight.state_variables import Variable
 from tandemlift.pictures.drawing.style import (
     BLUE,
     COMPONENTS,
@@ -33,16 +35,18 @@ RATIOS = (0.1, 0.3, 0.7)  # damping ratios that are drawn
 ROOM = 2.0  # by how much the axes go beyond the poles
 LOWEST, HIGHEST, POINTS = 0.02, 0.45, 300  # Hz, of the sample rate; points of a drawn response
 SMALLEST = 1e-12  # of the largest response at a frequency: a smaller one is rounding of the model, and not drawn
+AXES = {"roll": "x", "pitch": "y", "yaw": "z"}
+NAME = re.compile(r"(\w+?)_([a-z]+_\d+|[^_]+)")
 
 
 class Response(NamedTuple):
     """How an input moves an output.
 
     Attributes:
-        title: names both.
+        title: names both, and says how many of their responses are drawn.
         unit: of the curves' sizes.
         frequencies: [Hz] (F).
-        curves: the response (F) along each axis, by its label; NaN where it is only rounding.
+        curves: the drawn responses (F) by label; NaN where one is only rounding.
     """
 
     title: str
@@ -52,30 +56,43 @@ class Response(NamedTuple):
 
 
 def response_of(model: LinearModel, input: str, output: str) -> Response:
-    """The responses of a group of outputs to one of inputs, each along its own axis.
+    """The responses of a group of outputs to one of inputs: along like axes, else of the first inputs that move any.
 
     Args:
         model: the model.
-        input: beginning of the names of inputs, such as "push_force".
+        input: name of a group of inputs, such as "push_force".
         output: that of outputs, such as "position".
     """
     columns, rows = (
-        [i for i, v in enumerate(variables) if v.name.startswith(f"{name}_")]
-        for variables, name in ((model.inputs, input), (model.outputs, output))
+        [i for i, v in enumerate(variables) if split(v)[0] == group]
+        for variables, group in ((model.inputs, input), (model.outputs, output))
     )
     frequencies = np.geomspace(LOWEST, HIGHEST / model.step, POINTS)
-    response, pairs = frequency_response(model, frequencies), list(zip(rows, columns, strict=False))
+    responses = frequency_response(model, frequencies)[:, rows][:, :, columns]
     # coupling that symmetry forbids is as small as the rounding of the flight's state, next to what is allowed
-    sizes = np.abs(response[:, rows][:, :, columns]).max(axis=(1, 2), initial=0.0)
-    unit_in, unit_out = (v[at[0]].unit if at else "" for v, at in ((model.inputs, columns), (model.outputs, rows)))
-    curves = {
-        f"{model.inputs[j].name[-1]} → {model.outputs[i].name[-1]}": np.where(
-            np.abs(response[:, i, j]) > SMALLEST * sizes, response[:, i, j], np.nan
-        )
-        for i, j in pairs
+    sizes = np.abs(responses)
+    responses[sizes <= SMALLEST * sizes.max(axis=(1, 2), keepdims=True)] = np.nan
+    names = [[split(v[i])[1] for i in at] for v, at in ((model.inputs, columns), (model.outputs, rows))]
+    moved = {
+        (f"{a} → {b}".replace("_", " "), AXES.get(a, a) == AXES.get(b, b)): responses[:, i, j]
+        for j, a in enumerate(names[0])
+        for i, b in enumerate(names[1])
+        if np.isfinite(responses[:, i, j]).any()
     }
-    title = f"{input} → {output}".replace("_", " ")
-    return Response(title, f"{unit_out}/{unit_in}", frequencies, curves)
+    alike = {label: curve for (label, like), curve in moved.items() if like}
+    curves = alike or {label: curve for (label, _), curve in moved.items()}
+    curves = dict(list(curves.items())[: len(COMPONENTS)])
+    title = f"{input} → {output}".replace("_", " ") + f": {len(curves)} of {responses[0].size} responses"
+    units = [
+        f"({u})" if set(u) & set(" /") else u for u in (model.outputs[rows[0]].unit, model.inputs[columns[0]].unit)
+    ]
+    return Response(title, "/".join(units), frequencies, curves)
+
+
+def split(variable: Variable) -> tuple[str, str]:
+    """The group of a variable and its component: "push_force", "x"; "rotor_thrusts", "rotor_1"; twice its only name."""
+    found = NAME.fullmatch(variable.name)
+    return (found[1], found[2]) if found else (variable.name, variable.name)
 
 
 @styled
@@ -86,6 +103,8 @@ def draw(title: str, poles: Sequence[complex], response: Response) -> Figure:
     _poles(figure.add_subplot(grid[:, 0]), np.array(poles))
     _response(figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, 1]), response)
     figure.suptitle(title, fontsize=points(9.5))
+    if response.curves:
+        figure.legend(loc="outside lower right", ncols=len(COMPONENTS))
     return figure
 
 
@@ -128,7 +147,6 @@ def _response(size: Axes, phase: Axes, response: Response) -> None:
     for axes in (size, phase):
         axes.grid(True)
         axes.set_xlim(frequencies[0], frequencies[-1])
-    size.legend(loc="lower left")
 
 
 def draw_linear_model(connected: LinearModel, path: Path) -> Path:
@@ -139,7 +157,7 @@ def draw_linear_model(connected: LinearModel, path: Path) -> Path:
     """
     if len(connected.states) > MOST_STATES:
         raise InputError(f"{path}: {len(connected.states)} states are too many to draw; at most {MOST_STATES}")
-    inputs, outputs = ([v.name.rpartition("_")[0] for v in vs] for vs in (connected.inputs, connected.outputs))
+    inputs, outputs = ([split(v)[0] for v in vs] for vs in (connected.inputs, connected.outputs))
     usual = "push_force" if connected.of == "loop" else "disturbance_force"
     names = usual if usual in inputs else inputs[0], "position" if "position" in outputs else outputs[0]
     modes = [mode.s for mode in modes_of(connected).modes]
