@@ -202,7 +202,7 @@ def captions(page):
 
 def test_the_caption_of_maps_names_shares_and_hatched_cells_where_there_are_any(page):
     assert "the share of rows with a bad outcome, and the median" in captions(page)["Maps"]
-    assert "Hatched cells" not in captions(page)["Maps"]
+    assert "Hatched" not in captions(page)["Maps"]
 
 
 def test_chosen_metrics_are_shown_and_no_others(study, tmp_path):
@@ -241,7 +241,7 @@ def test_a_study_all_of_whose_flights_failed_has_a_page_with_the_ten_that_failed
     study = made_up({"study": STUDY["study"] | {"draws": 20}, "draw": STUDY["draw"]}, tmp_path / "crashed", crashed)
     page = check_page(write_study_report(study, tmp_path / "report.html"))
     assert [row[0] for row in page.rows if row and row[0].isdigit()] == [str(number) for number in range(10)]
-    assert captions(page)["Maps"].endswith("Hatched cells have no row.")  # 20 draws leave some of 16 cells empty
+    assert captions(page)["Maps"].endswith("Hatched: no row, or of a quantity no row that ended well.")
 
 
 def test_a_study_that_is_not_finished_says_so_and_an_empty_one_is_refused(study, tmp_path):

@@ -234,5 +234,8 @@ def caption_of(rows: StudyRows, figure: Figure, *, over_two: bool) -> Caption:
         text = f"Over the parameter that varies: {said} Drawn values are binned."
         return Caption("Over the parameter", text, "Curves over the parameter, a row for each group of rows.")
     text = f"Over two of the parameters that vary: {said} Values of a grid have a cell each; drawn values are binned."
-    text += " Hatched cells have no row." if any(ax.patch.get_hatch() for ax in figure.axes) else ""
+    if any(ax.patch.get_hatch() for ax in figure.axes):
+        lacking = any(np.isnan(rows.values[q.name][~rows.bad]).any() for q in rows.quantities)
+        needed = " that ended well" * bad + " with a value" * lacking if rows.quantities else ""
+        text += f" Hatched: no row{f', or of a quantity no row{needed}' if needed else ''}."
     return Caption("Maps", text, "Heat maps over two parameters, a row for each group of rows.")
