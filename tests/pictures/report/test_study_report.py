@@ -15,7 +15,7 @@ from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.analysis.studies.table import outcome_lines
 from tandemlift.core.findings import FINDING_NAMES
 from tandemlift.pictures.report.page import number
-from tandemlift.pictures.report.study.maps import axis_of
+from tandemlift.pictures.report.study.maps import axis_of, draw_curves
 from tandemlift.pictures.report.study.sections import percent, what_was_flown
 from tandemlift.pictures.report.study.study_report import write_study_report
 
@@ -193,6 +193,23 @@ def test_bins_of_a_key_that_is_drawn_log_uniform_have_about_as_many_rows_each(st
     numbers = np.bincount(axis.cell)
     assert axis.size == len(numbers) >= 4
     assert numbers.max() < 1.5 * numbers.min()
+
+
+@pytest.mark.parametrize(
+    ("values", "scale"),
+    [
+        ({"low": 1.0, "high": 100.0, "count": 5, "spacing": "log"}, "log"),
+        ({"low": 1.0, "high": 100.0, "count": 5}, "linear"),
+        ([0.1, 0.2, 1.0, 3.0, 1000.0], "log"),
+    ],
+)
+def test_curves_over_a_grid_have_the_scale_of_its_values(values, scale, tmp_path):
+    tables = {"study": {"name": "grid", "missions": ["one-push"]}, "grid": {"admittance.damping": values}}
+    rows = StudyRows(made_up(tables, tmp_path / "grid", measured))
+    panel = draw_curves(rows, "admittance.damping").axes[0]
+    low, high = panel.get_xlim()
+    assert panel.get_xscale() == scale
+    assert low < rows.varied["admittance.damping"].min() < rows.varied["admittance.damping"].max() < high
 
 
 def captions(page):
