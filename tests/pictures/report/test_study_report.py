@@ -222,6 +222,11 @@ def test_the_caption_of_maps_names_shares_and_hatched_cells_where_there_are_any(
     assert "Hatched" not in captions(page)["Maps"]
 
 
+def test_captions_name_what_curves_and_maps_pool(page):
+    assert "Cases are pooled." in captions(page)["Maps"], "two controllers of two cases each"
+    assert "pooled" not in captions(page)["Distributions"]
+
+
 def test_chosen_metrics_are_shown_and_no_others(study, tmp_path):
     text = write_study_report(study, tmp_path / "chosen.html", ["human_work_j"]).read_text("utf-8")
     assert "<h3>Human work [J]</h3>" in text

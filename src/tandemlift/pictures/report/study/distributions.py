@@ -13,7 +13,7 @@ from tandemlift.core.types import Array
 from tandemlift.pictures.drawing.figure import Caption
 from tandemlift.pictures.drawing.panels import legend_above
 from tandemlift.pictures.drawing.style import look, page_figure, styled
-from tandemlift.pictures.report.study.words import compared, is_far, shown_quantity
+from tandemlift.pictures.report.study.words import compared, is_far, pooled, shown_quantity
 
 MOST_CURVES = 8
 POINTS = 1_000  # of a curve
@@ -65,3 +65,8 @@ def draw_distributions(rows: StudyRows) -> Figure:
         handles = [Line2D([], [], **look(place, lw=1.1)) for place in range(len(groups))]
         legend_above(figure, handles, [group.name for group in groups], "outside upper left")
     return figure
+
+
+def caption_of(rows: StudyRows) -> Caption:
+    """The caption of the distributions; it names what each curve pools."""
+    return CAPTION._replace(text=CAPTION.text + pooled(rows, MOST_CURVES))

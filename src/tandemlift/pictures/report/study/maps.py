@@ -19,7 +19,14 @@ from tandemlift.analysis.studies.study_rows import Places, RowGroup, StudyRows
 from tandemlift.core.types import Array
 from tandemlift.pictures.drawing.figure import Caption
 from tandemlift.pictures.drawing.style import BLUE, GREY, LIGHT_BLUE, VERMILLION, page_figure, points, styled
-from tandemlift.pictures.report.study.words import QuantityDisplay, compared, is_far, shown_column, shown_quantity
+from tandemlift.pictures.report.study.words import (
+    QuantityDisplay,
+    compared,
+    is_far,
+    pooled,
+    shown_column,
+    shown_quantity,
+)
 
 MOST_GROUPS = 3
 MOST_QUANTITIES = 2  # beside the share of bad outcomes
@@ -244,7 +251,7 @@ def caption_of(rows: StudyRows, figure: Figure, *, over_two: bool) -> Caption:
     if rows.quantities:
         band = "" if over_two else ", with the band from the 5th to the 95th percentile"
         drawn.append(f"the median of a quantity{' in those without' if bad else ''}{band}")
-    said = f"{', and '.join(drawn)}."
+    said = f"{', and '.join(drawn)}.{pooled(rows, MOST_GROUPS)}"
     if not over_two:
         text = f"Over the parameter that varies: {said} Drawn values are binned."
         return Caption("Over the parameter", text, "Curves over the parameter, a row for each group of rows.")

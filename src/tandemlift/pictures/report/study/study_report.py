@@ -27,7 +27,7 @@ def _figures(rows: StudyRows, folder: Path | None) -> list[ShownFigure]:
     drawn, captions = dict[str, "Figure"](), dict[str, "Caption"]()
     if rows.quantities:
         drawn["distributions"] = distributions.draw_distributions(rows)
-        captions["distributions"] = distributions.CAPTION
+        captions["distributions"] = distributions.caption_of(rows)
     columns = maps.map_columns(rows)
     if columns and (rows.quantities or rows.bad.any()):
         both = len(columns) == 2
