@@ -145,7 +145,8 @@ def _round_ticks(axis: Axis, values: Array, is_log: bool) -> None:
         axis.set_major_formatter("{x:g}")
         axis.set_minor_formatter(NullFormatter())
     far = is_log and values[-1] > 5.0 * values[0]
-    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)) if far else MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
+    subs = (1.0, 2.0, 5.0) if values[-1] < 100.0 * values[0] else (1.0,)
+    axis.set_major_locator(LogLocator(subs=subs) if far else MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
 
 
 def _map(ax: Axes, x: MapAxis, y: MapAxis, formed: Array, colours: Mapping[str, Any]) -> QuadMesh:
