@@ -15,6 +15,7 @@ from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.analysis.studies.table import outcome_lines
 from tandemlift.core.findings import FINDING_NAMES
 from tandemlift.pictures.report.page import number
+from tandemlift.pictures.report.study.distributions import draw_distributions
 from tandemlift.pictures.report.study.maps import axis_of, draw_curves
 from tandemlift.pictures.report.study.sections import percent, what_was_flown
 from tandemlift.pictures.report.study.study_report import write_study_report
@@ -220,6 +221,15 @@ def captions(page):
 def test_the_caption_of_maps_names_shares_and_hatched_cells_where_there_are_any(page):
     assert "the share of rows with a bad outcome, and the median" in captions(page)["Maps"]
     assert "Hatched" not in captions(page)["Maps"]
+
+
+def test_a_legend_of_many_groups_does_not_shrink_the_panels(tmp_path):
+    def of(cases):
+        tables = {**STUDY, "study": STUDY["study"] | {"draws": 5}, "cases": [{"name": name} for name in cases]}
+        figure = draw_distributions(StudyRows(made_up(tables, tmp_path / str(len(cases)), measured)))
+        return figure.axes[0].get_window_extent().height / figure.dpi
+
+    assert of([f"a case with a name of many words, number {i}" for i in range(4)]) > 0.9 * of("a")
 
 
 def test_captions_name_what_curves_and_maps_pool(page):
