@@ -152,6 +152,15 @@ def test_the_push_is_grey_where_it_is_not_usable_and_blue_during_the_tare(windy)
         assert shaded(panel, LIGHT_BLUE) == pytest.approx(np.array([[9.0, 12.0]]), abs=half)
 
 
+def test_the_interaction_is_grey_only_while_a_push_is_followed(windy):
+    for axis, panel in enumerate(figures()["interaction"].draw(windy).axes[:3]):
+        active = windy["push_active"][:, axis] > 0.0
+        assert (windy["admittance_force"][~active, axis] != 0.0).any() or not active.any()
+        grey = shaded(panel, PALE) if active.any() else np.empty((0, 2))
+        seconds = float((grey[:, 1] - grey[:, 0]).sum())
+        assert seconds == pytest.approx(active.sum() * windy.mission["mission"]["log_interval"], abs=0.05)
+
+
 def test_where_a_push_acts_is_told_from_the_payload_and_only_while_it_is_large_enough(windy):
     level = np.tile([1.0, 0.0, 0.0, 0.0], (len(windy.time), 1))
     told = np.where((windy.time > 20.5) & (windy.time < 23.0), 0.4, 0.0)
