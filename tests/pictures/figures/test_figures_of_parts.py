@@ -161,6 +161,14 @@ def test_the_interaction_is_grey_only_while_a_push_is_followed(windy):
         assert seconds == pytest.approx(active.sum() * windy.mission["mission"]["log_interval"], abs=0.05)
 
 
+def test_the_disturbance_is_grey_as_soon_as_the_pilot_is_ready_to_follow_a_person(windy):
+    kind = figures()["disturbance"]
+    drawn = kind.draw(windy)
+    assert shaded(drawn.axes[0], PALE)[0, 0] < windy.mission["pushes"][0]["time"]
+    assert drawn.legends[0].get_texts()[-1].get_text() == "ready"
+    assert "Grey: the pilot is ready to follow a person." in kind.CAPTION.text
+
+
 def test_where_a_push_acts_is_told_from_the_payload_and_only_while_it_is_large_enough(windy):
     level = np.tile([1.0, 0.0, 0.0, 0.0], (len(windy.time), 1))
     told = np.where((windy.time > 20.5) & (windy.time < 23.0), 0.4, 0.0)
