@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from tandemlift.pictures.report.identification_report import draw_correlation
+from tandemlift.pictures.drawing.style import PAPER
+from tandemlift.pictures.report.identification_report import draw_correlation, draw_estimates
 
 KEYS = ["vehicle.payload.mass", "vehicle.drag.force.x", "actuators.delay"]
 
@@ -11,3 +12,13 @@ def test_the_map_of_correlations_names_its_rows_and_columns():
     axes = draw_correlation(KEYS, np.eye(3).tolist()).axes[0]
     for labels in (axes.get_xticklabels(), axes.get_yticklabels()):
         assert [label.get_text() for label in labels] == KEYS
+
+
+def test_the_markers_of_numbers_that_are_not_excited_are_hollow_above_their_intervals():
+    row = {"low": 0.9, "value": 1.1, "high": 1.3, "start": 1.0}
+    axes = draw_estimates([row | {"key": key, "excited": key == KEYS[0]} for key in KEYS[:2]]).axes[0]
+    hollow, filled = (line for line in axes.lines if line.get_marker() == "o")
+    interval = next(line for line in axes.lines if line.get_marker() == "None")
+    assert hollow.get_markerfacecolor() == PAPER != filled.get_markerfacecolor()
+    assert hollow.get_zorder() > interval.get_zorder()
+    assert hollow.get_markersize() > 2.0 * hollow.get_markeredgewidth() + interval.get_linewidth()

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from tandemlift.core.files import versions
 from tandemlift.flight.channels import channel_of
 from tandemlift.pictures.drawing.figure import Caption
-from tandemlift.pictures.drawing.style import BLUE, GREY, INK, look, page_figure, points, styled
+from tandemlift.pictures.drawing.style import BLUE, GREY, INK, PAPER, look, page_figure, points, styled
 from tandemlift.pictures.report.page import DASH, Cell, PageTable, code, number, shown_figures, strong, write_page
 
 PAGE = "identification.html"
@@ -65,7 +65,7 @@ def write_identification(found: Mapping[str, Any], folder: Path) -> Path:
         about=f"From {', '.join(found['logs'])}: {used} windows, {left_out} left out, {found['steps']} steps.",
         verdict=None,
         remarks=found["remarks"],
-        parameters=_table(found["parameters"]),
+        parameters=_table(found["parameters"], found["written"]),
         whole=_table(found["whole_vehicle"]),
         residuals=_residuals(found),
         figures=shown_figures(drawn, CAPTIONS),
@@ -73,14 +73,15 @@ def write_identification(found: Mapping[str, Any], folder: Path) -> Path:
     )
 
 
-def _table(rows: Sequence[Mapping[str, Any]]) -> PageTable:
-    titles = ("", "Estimate", "95 % from", "to", "Unit", "Mission", "Efficiency")
+def _table(rows: Sequence[Mapping[str, Any]], written: Mapping[str, float] | None = None) -> PageTable:
+    titles = ("", "Estimate", "95 % from", "to", "Unit", "Mission", *["Written"] * bool(written), "Efficiency")
     lines = [
         [
             code(r["key"]),
             *[number(r[name]) for name in ("value", "low", "high")],
             r["unit"],
             number(r["start"]),
+            *([number(written[r["key"]])] if written else ()),
             f"{r['efficiency']:.2f}" if r["excited"] else strong("not excited"),
         ]
         for r in rows
@@ -110,7 +111,8 @@ def draw_estimates(rows: Sequence[Mapping[str, Any]]) -> Figure:
         axes.plot([low, high], [place, place], color=BLUE, lw=1.6)
         marker = "<" if value < -WIDEST else ">" if value > WIDEST else "o"
         at = min(max(value, -WIDEST), WIDEST)
-        axes.plot(at, place, marker, color=INK, ms=3.0, mfc=INK if r["excited"] else "none", clip_on=False)
+        face = INK if r["excited"] else PAPER  # above the interval, which would show through a marker without a face
+        axes.plot(at, place, marker, color=INK, ms=4.0, mew=0.8, mfc=face, zorder=3, clip_on=False)
     axes.set_yticks(range(len(shown)), [r["key"] for r in reversed(shown)])
     axes.axvline(0.0, color=GREY, lw=0.8)
     axes.set_xlim(-WIDEST, WIDEST)
