@@ -21,6 +21,7 @@ from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution.random_flights import RandomFlight, random_plan, what_is_drawn
 from tandemlift.apps.cli.main import cli
 from tandemlift.missions import load_mission, tables_of
+from tandemlift.pictures.report.study import certificate_report
 from tandemlift.pictures.report.study.certificate_report import certificate_lines, write_certificate
 
 QUICK = ["--set", "mission.duration=12.0", "--set", "phases.land_start=60.0"]
@@ -61,6 +62,11 @@ def test_the_range_of_a_parameter_is_over_its_value_in_the_mission():
 def test_a_tier_that_was_not_formed_is_named():
     with pytest.raises(tl.InputError, match="tier 'person' is not in this certificate; it has linear"):
         made().tier("person")
+
+
+def test_the_version_is_that_of_the_package_and_not_of_stale_metadata(monkeypatch):
+    monkeypatch.setattr(certificate_report, "version", lambda name: "0.2.0")
+    assert certificate_report.certify("iris", tiers=[]).versions["tandemlift"] == tl.__version__
 
 
 def test_the_files_of_a_certificate(tmp_path):

@@ -20,7 +20,7 @@ from tandemlift.analysis.linearization.claims import Claim, Tier
 from tandemlift.analysis.robustness.nonlinear import nonlinear_tier
 from tandemlift.analysis.robustness.structured import DEFAULT_BOX, structured_tier
 from tandemlift.core.errors import InputError, extra, unknown
-from tandemlift.core.files import DATA, atomic_write
+from tandemlift.core.files import DATA, __version__, atomic_write
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Progress
 from tandemlift.missions import MissionLike, format_toml, mission_of, tables_of
@@ -34,7 +34,7 @@ PAGE, JSON, PDF, SOURCE = "certificate.html", "certificate.json", "certificate.p
 MISSION = "mission.toml"
 NONE, MINUS = "none", "−"
 TIERS = ("linear", "structured", "person", "nonlinear", "statistics")
-PACKAGES = ("tandemlift", "numpy", "scipy", "slycot", "cvxpy")
+PACKAGES = ("numpy", "scipy", "slycot", "cvxpy")
 
 
 def certify(
@@ -99,7 +99,7 @@ def certify(
 
 
 def _versions() -> dict[str, str]:
-    found = dict[str, str]()
+    found = {"tandemlift": __version__}
     for name in PACKAGES:
         try:
             found[name] = version(name)
