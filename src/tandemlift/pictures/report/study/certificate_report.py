@@ -27,7 +27,7 @@ from tandemlift.missions import MissionLike, format_toml, mission_of, tables_of
 from tandemlift.pictures.drawing.style import save
 from tandemlift.pictures.report.page import shown_figures, write_page
 from tandemlift.pictures.report.paper_report import check_typesetting, typeset
-from tandemlift.pictures.report.study.certificate_figures import CAPTIONS, certificate_figures
+from tandemlift.pictures.report.study.certificate_figures import certificate_captions, certificate_figures
 from tandemlift.pictures.report.study.words import command
 
 PAGE, JSON, PDF, SOURCE = "certificate.html", "certificate.json", "certificate.pdf", "report.typ"
@@ -121,7 +121,7 @@ def write_certificate(certificate: Certificate, folder: Path) -> list[Path]:
         _write(folder / name, text)
     certificate = _placed(certificate, {f"tandemlift run {name}": command("run", folder / name) for name in files})
     certificate.save(folder / JSON)
-    figures = certificate_figures(certificate)
+    figures, captions = certificate_figures(certificate), certificate_captions(certificate)
     tiers = [
         {"title": t.title, "assumptions": t.assumptions, "reason": t.reason, "rows": [_row(c) for c in t.claims]}
         for t in certificate.tiers
@@ -136,7 +136,7 @@ def write_certificate(certificate: Certificate, folder: Path) -> list[Path]:
         tiers=tiers,
         mission=mission,
         repeat=command("certify", folder / MISSION, "--tiers", ",".join(t.name for t in certificate.tiers)),
-        figures=shown_figures(figures, CAPTIONS),
+        figures=shown_figures(figures, captions),
         versions=f"Computed with {versions}.",
     )
     written = [page, folder / JSON]
@@ -147,7 +147,7 @@ def write_certificate(certificate: Certificate, folder: Path) -> list[Path]:
     parts = folder / "pdf"
     for name, figure in figures.items():
         save(figure, parts / f"{name}.pdf")
-    shown = [{"file": f"{n}.pdf", "title": CAPTIONS[n].title, "text": CAPTIONS[n].text} for n in figures]
+    shown = [{"file": f"{n}.pdf", "title": captions[n].title, "text": captions[n].text} for n in figures]
     data = {"mission": certificate.mission, "verdict": verdict, "tiers": tiers, "figures": shown, "versions": versions}
     _write(parts / "report.json", json.dumps(data, ensure_ascii=False, allow_nan=False))
     _write(parts / SOURCE, (DATA / "report" / "certificate.typ").read_text("utf-8"))
