@@ -130,6 +130,7 @@ def draw_misfit(used: Mapping[str, Any], held: Mapping[str, Any]) -> Figure:
         axes.plot(*np.transpose(windows), marker=".", label=name.removeprefix("measured_").replace("_", " "), **style)
         if name in held:
             axes.plot(*np.transpose(held[name]), marker="x", **style)
+    axes.margins(x=0.02)
     axes.set_ylim(bottom=0.0)
     axes.set_xlabel("time (s)")
     axes.set_ylabel("residuals over noise (1)")
