@@ -245,6 +245,16 @@ def test_chosen_metrics_are_shown_and_no_others(study, tmp_path):
         write_study_report(study, tmp_path / "chosen.html", ["human_wrok_j"])
 
 
+@pytest.mark.parametrize("others", [(), ("human_work_j",)])
+def test_a_chosen_metric_that_no_row_has_is_told_and_the_rest_is_written(others, study, tmp_path):
+    metrics = ["push_triggers_after_10s", *others]
+    text = write_study_report(study, tmp_path / "chosen.html", metrics).read_text("utf-8")
+    assert "No row has a value of <code>push_triggers_after_10s</code>." in text
+    assert ("<h3>Human work [J]</h3>" in text) == bool(others)
+    assert "Clearance" not in text
+    assert "<h2>Worst rows</h2>" in text
+
+
 @pytest.mark.parametrize(
     ("grid", "title"),
     [

@@ -73,6 +73,7 @@ def write_study_report(
         refusals=sections.refusals(rows),
         findings=sections.findings(rows),
         measured=list(sections.measured(rows)),
+        lacking=rows.lacking,
         bad=sections.count(int(rows.bad.sum())),
         figures=_figures(rows, figures),
         influence=sections.influence(rows),
