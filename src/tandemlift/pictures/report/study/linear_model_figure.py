@@ -16,7 +16,6 @@ from tandemlift.analysis.linearization.frequency_response import frequency_respo
 from tandemlift.analysis.linearization.linear_model import MOST_STATES, LinearModel, modes_of, title_of
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
-from tandemlift.flight.state_variables import Variable
 from tandemlift.pictures.drawing.style import (
     BLUE,
     COMPONENTS,
@@ -64,7 +63,7 @@ def response_of(model: LinearModel, input: str, output: str) -> Response:
         output: that of outputs, such as "position".
     """
     columns, rows = (
-        [i for i, v in enumerate(variables) if split(v)[0] == group]
+        [i for i, v in enumerate(variables) if split(v.name)[0] == group]
         for variables, group in ((model.inputs, input), (model.outputs, output))
     )
     frequencies = np.geomspace(LOWEST, HIGHEST / model.step, POINTS)
@@ -72,7 +71,7 @@ def response_of(model: LinearModel, input: str, output: str) -> Response:
     # coupling that symmetry forbids is as small as the rounding of the flight's state, next to what is allowed
     sizes = np.abs(responses)
     responses[sizes <= SMALLEST * sizes.max(axis=(1, 2), keepdims=True)] = np.nan
-    names = [[split(v[i])[1] for i in at] for v, at in ((model.inputs, columns), (model.outputs, rows))]
+    names = [[split(v[i].name)[1] for i in at] for v, at in ((model.inputs, columns), (model.outputs, rows))]
     moved = {
         (f"{a} → {b}".replace("_", " "), AXES.get(a, a) == AXES.get(b, b)): responses[:, i, j]
         for j, a in enumerate(names[0])
@@ -89,10 +88,10 @@ def response_of(model: LinearModel, input: str, output: str) -> Response:
     return Response(title, "/".join(units), frequencies, curves)
 
 
-def split(variable: Variable) -> tuple[str, str]:
-    """The group of a variable and its component: "push_force", "x"; "rotor_thrusts", "rotor_1"; twice its only name."""
-    found = NAME.fullmatch(variable.name)
-    return (found[1], found[2]) if found else (variable.name, variable.name)
+def split(name: str) -> tuple[str, str]:
+    """The group and the component of a name: "push_force", "x"; "rotor_thrusts", "rotor_1"; of one word, it twice."""
+    found = NAME.fullmatch(name)
+    return (found[1], found[2]) if found else (name, name)
 
 
 @styled
@@ -157,7 +156,7 @@ def draw_linear_model(connected: LinearModel, path: Path) -> Path:
     """
     if len(connected.states) > MOST_STATES:
         raise InputError(f"{path}: {len(connected.states)} states are too many to draw; at most {MOST_STATES}")
-    inputs, outputs = ([split(v)[0] for v in vs] for vs in (connected.inputs, connected.outputs))
+    inputs, outputs = ([split(v.name)[0] for v in vs] for vs in (connected.inputs, connected.outputs))
     usual = "push_force" if connected.of == "loop" else "disturbance_force"
     names = usual if usual in inputs else inputs[0], "position" if "position" in outputs else outputs[0]
     modes = [mode.s for mode in modes_of(connected).modes]
