@@ -65,6 +65,7 @@ def draw_search(found: Tuning) -> Figure:
     last = max(len(ratios) - 1, 1)
     ax.set_xlim(-MARGIN * last, (1.0 + MARGIN) * last)
     bad = "" if not least_bad else f" ({least_bad} bad outcomes)"
+    ax.xaxis.set_major_locator(MaxNLocator(integer=True))
     ax.set(xlabel="candidate", ylabel=f"cost{bad}")
     figure.legend(loc="outside upper left", ncols=3)
     return figure
