@@ -7,6 +7,7 @@ import math
 import re
 import shlex
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 from repository import ROOT
@@ -21,6 +22,8 @@ from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution.random_flights import RandomFlight, random_plan, what_is_drawn
 from tandemlift.apps.cli.main import cli
 from tandemlift.missions import load_mission, tables_of
+from tandemlift.pictures.report.study import certificate_report
+from tandemlift.pictures.report.study.certificate_figures import certificate_captions, draw_map
 from tandemlift.pictures.report.study.certificate_report import certificate_lines, write_certificate
 
 QUICK = ["--set", "mission.duration=12.0", "--set", "phases.land_start=60.0"]
@@ -61,6 +64,37 @@ def test_the_range_of_a_parameter_is_over_its_value_in_the_mission():
 def test_a_tier_that_was_not_formed_is_named():
     with pytest.raises(tl.InputError, match="tier 'person' is not in this certificate; it has linear"):
         made().tier("person")
+
+
+def test_the_version_is_that_of_the_package_and_not_of_stale_metadata(monkeypatch):
+    monkeypatch.setattr(certificate_report, "version", lambda name: "0.2.0")
+    assert certificate_report.certify("iris", tiers=[]).versions["tandemlift"] == tl.__version__
+
+
+def test_captions_tell_of_flights_only_where_some_are_drawn():
+    def captions(data, claims):
+        tier = Tier("person", "Person", (), claims, curves={"map": data})
+        return {name: c.text for name, c in certificate_captions(Certificate("iris", (tier,), {})).items()}
+
+    (limit,) = (claim for claim in made().tier("linear").claims if claim.flown)
+    bare, flown = captions({}, (limit._replace(flown=None),)), captions({"flown": [[1.0, 2.0, True]]}, (limit,))
+    assert "flights" not in bare["limits"] + bare["map"]
+    assert "Circles: the limits that flights found" in flown["limits"]
+    assert "Circles and crosses: flights" in flown["map"]
+
+
+def test_the_labels_of_a_map_of_arms_are_on_their_contours_and_within_its_frame():
+    """The stiffness is 25 times the damping: of 200 N/m only at the upper edge."""
+    mass, damping = np.geomspace(0.2, 5.0, 9), np.geomspace(0.3, 8.05, 9)
+    data = {"mass": mass, "damping": damping, "stiffness": [25.0 * damping] * 9, "mission": [1.0, 2.0]}
+    figure = draw_map(Tier("person", "Person", (), (), curves={"map": {**data, "arm_stiffness": 30.0}}))
+    axes = figure.axes[0]
+    labels = {float(text.get_text()): text for text in axes.texts}
+    assert sorted(labels) == [10.0, 20.0, 50.0, 100.0]
+    for level, text in labels.items():
+        assert text.get_position()[1] == pytest.approx(level / 25.0, rel=0.05)
+        corners = text.get_window_extent().corners()
+        assert all(axes.bbox.contains(*corner) for corner in corners)
 
 
 def test_the_files_of_a_certificate(tmp_path):

@@ -149,6 +149,10 @@ def test_the_identified_mission_is_written_with_its_intervals(found, tmp_path):
     assert loaded.actuators.delay == pytest.approx(found["actuators.delay"].value, rel=1e-6)
     line = next(text for text in mission.read_text("utf-8").splitlines() if text.startswith("thrust_constant"))
     assert f"± {found['vehicle.quadrotors.0.thrust_constant'].half:.2g}" in line
+    written = found.details["written"]
+    drag = [written[f"vehicle.drag.force.{axis}"] for axis in "xyz"]
+    assert loaded.vehicle.drag.force == pytest.approx(drag, abs=1e-12)
+    assert drag == pytest.approx([max(found[f"vehicle.drag.force.{axis}"].value, 0.0) for axis in "xyz"], rel=1e-6)
     assert json.loads(data.read_text("utf-8"))["whole_vehicle"][0]["key"] == "mass"
 
 

@@ -10,7 +10,7 @@ from scipy.io import loadmat
 from verbs import verb
 
 from tandemlift.core.errors import InputError
-from tandemlift.pictures.report.study import certificate_figures
+from tandemlift.pictures.report.study import linear_model_figure
 from tandemlift.pictures.report.study.linear_model_figure import Response
 
 call = partial(verb, "linearize")
@@ -35,12 +35,12 @@ def test_the_body_alone_has_the_rotors_as_inputs():
 
 def test_the_figure_has_the_inputs_and_outputs_that_were_asked_for(tmp_path, monkeypatch):
     titles = []
-    monkeypatch.setattr(certificate_figures, "Response", lambda *words: titles.append(words[0]) or Response(*words))
+    monkeypatch.setattr(linear_model_figure, "Response", lambda *words: titles.append(words[0]) or Response(*words))
     code, _, _ = call(
         *("hover", "--inputs", "disturbance_force", "--outputs", "velocity"),
         *("--figure", tmp_path / "m.png", "--out", tmp_path / "m.mat"),
     )
-    assert (code, titles) == (0, ["disturbance force → velocity"])
+    assert (code, titles) == (0, ["disturbance force → velocity: 3 of 9 responses"])
     assert loadmat(tmp_path / "m.mat")["C"].shape[0] == 3
 
 

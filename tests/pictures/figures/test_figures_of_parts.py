@@ -14,9 +14,9 @@ from tandemlift.engines.models.scene import floor_from
 from tandemlift.flight.record import Ending
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.drawing.figure import IEEE
-from tandemlift.pictures.drawing.scene import NEAR, on_paper
+from tandemlift.pictures.drawing.scene import NEAR, Scene3D, on_paper
 from tandemlift.pictures.drawing.style import COMPONENTS, LIGHT_BLUE, PALE
-from tandemlift.pictures.drawing.surroundings import clearance, floor_height
+from tandemlift.pictures.drawing.surroundings import clearance, draw_walls, floor_height
 from tandemlift.pictures.drawing.vehicle import true_payload_mass
 from tandemlift.pictures.figures.registry import figures, figures_for
 
@@ -150,6 +150,23 @@ def test_the_push_is_grey_where_it_is_not_usable_and_blue_during_the_tare(windy)
         half = flight.mission["mission"]["log_interval"] / 2.0 + 1e-9
         assert shaded(panel, PALE) == pytest.approx(np.array([[0.0, 12.0], [40.0, 41.0]]), abs=2.0 * half)
         assert shaded(panel, LIGHT_BLUE) == pytest.approx(np.array([[9.0, 12.0]]), abs=half)
+
+
+def test_the_interaction_is_grey_only_while_a_push_is_followed(windy):
+    for axis, panel in enumerate(figures()["interaction"].draw(windy).axes[:3]):
+        active = windy["push_active"][:, axis] > 0.0
+        assert (windy["admittance_force"][~active, axis] != 0.0).any() or not active.any()
+        grey = shaded(panel, PALE) if active.any() else np.empty((0, 2))
+        seconds = float((grey[:, 1] - grey[:, 0]).sum())
+        assert seconds == pytest.approx(active.sum() * windy.mission["mission"]["log_interval"], abs=0.05)
+
+
+def test_the_disturbance_is_grey_as_soon_as_the_pilot_is_ready_to_follow_a_person(windy):
+    kind = figures()["disturbance"]
+    drawn = kind.draw(windy)
+    assert shaded(drawn.axes[0], PALE)[0, 0] < windy.mission["pushes"][0]["time"]
+    assert drawn.legends[0].get_texts()[-1].get_text() == "ready"
+    assert "Grey: the pilot is ready to follow a person." in kind.CAPTION.text
 
 
 def test_where_a_push_acts_is_told_from_the_payload_and_only_while_it_is_large_enough(windy):
@@ -348,3 +365,21 @@ def test_a_long_wall_is_cut_off_and_does_not_shrink_the_path(windy, drawn):
     wall = {"start": [-500.0, 2.5], "end": [500.0, 2.5], "top": 90.0}
     walled = figures()["path"].draw(with_mission(windy, walls=[wall])).axes[0]
     assert np.ptp(walled.get_xlim()) < 2.0 * np.ptp(bare.get_xlim())
+
+
+def test_walls_whose_corner_is_just_beyond_the_box_have_no_hole_there():
+    corner = [15.0, -2.25]
+    tables = [{"start": [9.0, 1.0], "end": corner}, {"start": corner, "end": [21.0, 1.0]}]
+    points = np.array([[-1.0, -1.0, 0.0], [27.0, 5.0, 2.5], [*corner, 2.5]])
+    scene = Scene3D(points)
+    assert scene.box[1, 0] == -2.0
+    walls = draw_walls(scene, tables, points)
+    assert [wall.ends for wall in walls] == [(True, True), (True, True)]
+
+
+@pytest.mark.parametrize("length", [3.0, 60.0])
+def test_the_box_of_a_path_has_all_but_30_cm_of_what_is_shown(length):
+    points = np.array([[0.0, -1.0, -0.2], [length, 1.0, 0.2]])
+    box = Scene3D(points).box
+    assert (box[:, 0] <= points[0] + 0.3).all()
+    assert (box[:, 1] >= points[1] - 0.3).all()

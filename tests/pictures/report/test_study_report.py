@@ -16,7 +16,8 @@ from tandemlift.analysis.studies.table import outcome_lines
 from tandemlift.analysis.studies.worst import worst_rows
 from tandemlift.core.findings import FINDING_NAMES
 from tandemlift.pictures.report.page import number
-from tandemlift.pictures.report.study.maps import axis_of
+from tandemlift.pictures.report.study.distributions import draw_distributions
+from tandemlift.pictures.report.study.maps import axis_of, draw_curves
 from tandemlift.pictures.report.study.sections import percent, what_was_flown
 from tandemlift.pictures.report.study.study_report import write_study_report
 
@@ -196,6 +197,23 @@ def test_bins_of_a_key_that_is_drawn_log_uniform_have_about_as_many_rows_each(st
     assert numbers.max() < 1.5 * numbers.min()
 
 
+@pytest.mark.parametrize(
+    ("values", "scale"),
+    [
+        ({"low": 1.0, "high": 100.0, "count": 5, "spacing": "log"}, "log"),
+        ({"low": 1.0, "high": 100.0, "count": 5}, "linear"),
+        ([0.1, 0.2, 1.0, 3.0, 1000.0], "log"),
+    ],
+)
+def test_curves_over_a_grid_have_the_scale_of_its_values(values, scale, tmp_path):
+    tables = {"study": {"name": "grid", "missions": ["one-push"]}, "grid": {"admittance.damping": values}}
+    rows = StudyRows(made_up(tables, tmp_path / "grid", measured))
+    panel = draw_curves(rows, "admittance.damping").axes[0]
+    low, high = panel.get_xlim()
+    assert panel.get_xscale() == scale
+    assert low < rows.varied["admittance.damping"].min() < rows.varied["admittance.damping"].max() < high
+
+
 def captions(page):
     """The texts below the figures, by their titles."""
     return dict(re.findall(r"<b>Figure \d\. (.*)\.</b> (.*)</figcaption>", page.text))
@@ -203,7 +221,21 @@ def captions(page):
 
 def test_the_caption_of_maps_names_shares_and_hatched_cells_where_there_are_any(page):
     assert "the share of rows with a bad outcome, and the median" in captions(page)["Maps"]
-    assert "Hatched cells" not in captions(page)["Maps"]
+    assert "Hatched" not in captions(page)["Maps"]
+
+
+def test_a_legend_of_many_groups_does_not_shrink_the_panels(tmp_path):
+    def of(cases):
+        tables = {**STUDY, "study": STUDY["study"] | {"draws": 5}, "cases": [{"name": name} for name in cases]}
+        figure = draw_distributions(StudyRows(made_up(tables, tmp_path / str(len(cases)), measured)))
+        return figure.axes[0].get_window_extent().height / figure.dpi
+
+    assert of([f"a case with a name of many words, number {i}" for i in range(4)]) > 0.9 * of("a")
+
+
+def test_captions_name_what_curves_and_maps_pool(page):
+    assert "Cases are pooled." in captions(page)["Maps"], "two controllers of two cases each"
+    assert "pooled" not in captions(page)["Distributions"]
 
 
 def test_chosen_metrics_are_shown_and_no_others(study, tmp_path):
@@ -212,6 +244,16 @@ def test_chosen_metrics_are_shown_and_no_others(study, tmp_path):
     assert "Clearance" not in text
     with pytest.raises(tl.InputError, match=r"unknown metric 'human_wrok_j'.*Did you mean 'human_work_j'"):
         write_study_report(study, tmp_path / "chosen.html", ["human_wrok_j"])
+
+
+@pytest.mark.parametrize("others", [(), ("human_work_j",)])
+def test_a_chosen_metric_that_no_row_has_is_told_and_the_rest_is_written(others, study, tmp_path):
+    metrics = ["push_triggers_after_10s", *others]
+    text = write_study_report(study, tmp_path / "chosen.html", metrics).read_text("utf-8")
+    assert "No row has a value of <code>push_triggers_after_10s</code>." in text
+    assert ("<h3>Human work [J]</h3>" in text) == bool(others)
+    assert "Clearance" not in text
+    assert "<h2>Worst rows</h2>" in text
 
 
 @pytest.mark.parametrize(
@@ -242,7 +284,7 @@ def test_a_study_all_of_whose_flights_failed_has_a_page_with_the_ten_that_failed
     study = made_up({"study": STUDY["study"] | {"draws": 20}, "draw": STUDY["draw"]}, tmp_path / "crashed", crashed)
     page = check_page(write_study_report(study, tmp_path / "report.html"))
     assert [row[0] for row in page.rows if row and row[0].isdigit()] == [str(number) for number in range(10)]
-    assert captions(page)["Maps"].endswith("Hatched cells have no row.")  # 20 draws leave some of 16 cells empty
+    assert captions(page)["Maps"].endswith("Hatched: no row, or of a quantity no row that ended well.")
 
 
 def test_a_study_that_is_not_finished_says_so_and_an_empty_one_is_refused(study, tmp_path):

@@ -125,7 +125,8 @@ def _judged(
     vehicle = Unknowns(unknowns.numbers(search.estimate.q), ())
     held = _predicted(held_back, vehicle, search, search.estimate.fixed)
     details = _details(search, correlations, covariance, white, misfit_by_window(search, rows), held)
-    details |= {"example": _example(search)}
+    written = reference_rows(identified)
+    details |= {"example": _example(search), "written": {row.key: written.get(row.key, row.value) for row in found}}
     return Identification(identified, tuple(found), tuple(whole), tuple(remarks), details)
 
 

@@ -178,7 +178,7 @@ def remarks_on(
             "(--weighed vehicle.payload.mass=…), or log joint sensors of known scale, or pushes by a force gauge."
         )
     if still:
-        said.append(f"The flight did not excite {', '.join(still)}: they keep their prior.")
+        said.append(f"The flight did not excite {', '.join(still)}: it narrows their priors by less than half.")
     pairs = alike_pairs([row.key for row in found], correlations)
     for one, other, correlation in pairs[:MOST_PAIRS]:
         said.append(f"{one} and {other} can hardly be told apart: their errors correlate by {correlation:.3f}.")

@@ -15,6 +15,7 @@ from tandemlift.analysis.studies.design.settings import REFUSED
 from tandemlift.analysis.studies.table import BAD, Study
 from tandemlift.core.errors import unknown
 from tandemlift.core.types import Array
+from tandemlift.flight.metric_descriptions import METRICS
 
 if TYPE_CHECKING:
     import pyarrow
@@ -149,6 +150,7 @@ class StudyRows:
         varied: columns that vary, numbers (rows,); of texts the numbers of their names.
         texts: the names of those columns that are texts, by their numbers.
         quantities: the chosen ones.
+        lacking: chosen metrics of which no row has a value, so that the table has no column of them.
         values: of each quantity (rows,); NaN where a row was refused or its flight failed: what was measured until a
             flight was stopped compares with nothing.
 
@@ -158,8 +160,10 @@ class StudyRows:
 
     def __init__(self, study: Study, metrics: Sequence[str] = ()) -> None:
         self.study = study
-        asked = [quantity_named(name, study.columns) for name in metrics]
-        possible = asked or usual_quantities(study.columns)
+        stems = {column.partition(".")[0] for column in study.columns}
+        self.lacking = [name for name in metrics if (stem := name.partition(".")[0]) in METRICS and stem not in stems]
+        asked = [quantity_named(name, study.columns) for name in metrics if name not in self.lacking]
+        possible = asked if metrics else usual_quantities(study.columns)
         columns = needed(possible)
         varied = [name for name in study.varied if name in study.columns]
         own = ["row", "draw", "steps"] if "steps" in study.columns else ["row", "draw"]
@@ -169,7 +173,8 @@ class StudyRows:
         self.labels = {name: _labels(table[name]) for name in (*WHO, "outcome", "finding_kinds")}
         self.varied, self.texts = _what_varies(table, varied)
         known = {name: floats_of(table[name]) for name in columns}
-        self.quantities = asked or telling(possible, lambda name: bool(np.nansum(np.abs(known[name]))))
+        telling_ones = telling(possible, lambda name: bool(np.nansum(np.abs(known[name]))))
+        self.quantities = asked if metrics else telling_ones
         self.values = {q.name: np.where(self.bad, np.nan, q.of(known)) for q in self.quantities}
 
     def __len__(self) -> int:

@@ -57,7 +57,7 @@ def linearize(
         model.save(out)
         echo(f"model: {out}")
     if figure:
-        from tandemlift.pictures.report.study.certificate_figures import draw_linear_model
+        from tandemlift.pictures.report.study.linear_model_figure import draw_linear_model
 
         echo(f"figure: {draw_linear_model(model.connected(), Path(figure))}")
 

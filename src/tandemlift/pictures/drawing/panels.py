@@ -144,14 +144,15 @@ def shade(ax: Axes, time: Array, active: NDArray[np.bool_], color: str = PALE) -
     return spans
 
 
-def legend_above(figure: Figure, handles: Sequence[Any], names: Sequence[str], place: str = LEGEND) -> None:
-    """A legend over the panels, in as few rows as fit the figure's width."""
+def legend_above(figure: Figure, handles: Sequence[Any], names: Sequence[str], place: str = LEGEND) -> float:
+    """A legend over the panels, in as few rows as fit the figure's width. Returns its height [in]."""
     for rows in range(1, len(names) + 1):
         legend = figure.legend(handles, names, loc=place, ncols=-(-len(names) // rows), columnspacing=1.2)
         box = legend.get_tightbbox()
         if box is None or box.width <= figure.bbox.width or rows == len(names):
-            return
+            return box.height / figure.dpi if box else 0.0
         legend.remove()
+    return 0.0
 
 
 MOST = 8  # quadrotors that fit on a page

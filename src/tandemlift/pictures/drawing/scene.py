@@ -27,6 +27,7 @@ NEAR = np.cross(RIGHT, UP)
 CELLS = 14  # at most, along the longest side
 WIDE, HIGH = 0.62, 1.1  # of a digit's size: room that it takes across and along, with what is around it
 TOUCHING = np.array([0.05, 0.3, 0.3])  # of a cell: smaller excesses over the box do not lengthen it
+MOST_EXCESS = 0.3  # m, of these
 TALLEST = 5.2  # in
 ROOM = np.array([0.4, 0.3, 0.5, 0.36])  # in, for labels around text of `TEXT`: left, bottom, right, top
 
@@ -49,6 +50,7 @@ class Scene3D:
         box: (3, 2) lower and upper ends of the box [m, world axes], multiples of `cell` but for a floor that is there.
         cell: of the grid [m].
         stands: whether the box stands on a floor that is there.
+        bounds: (3, 2) lower and upper ends of box and points [m, world axes].
     """
 
     def __init__(self, points: Array, floor: float | None = None) -> None:
@@ -56,6 +58,8 @@ class Scene3D:
         self.stands = floor is not None
         if floor is not None:
             self.box[2] = floor, max(self.box[2, 1], floor + self.cell)
+        low, high = np.minimum(self.box[:, 0], points.min(axis=0)), np.maximum(self.box[:, 1], points.max(axis=0))
+        self.bounds = np.column_stack([low, high])
         corners = on_paper(np.stack(np.meshgrid(*self.box), axis=-1).reshape(-1, 3))
         seen = np.concatenate([corners, on_paper(points)])
         low, high = seen.min(axis=0), seen.max(axis=0)
@@ -135,6 +139,7 @@ def _box(points: Array) -> tuple[float, Array]:
     low, high = points.min(axis=0), points.max(axis=0)
     longest = max(float((high - low).max()), 1e-3)
     cell = float(np.diff(MaxNLocator(CELLS, steps=[1, 2, 5, 10]).tick_values(0.0, longest))[0])
-    first = np.floor(low / cell + TOUCHING)
-    last = np.maximum(np.ceil(high / cell - TOUCHING), first + 1.0)
+    excess = np.minimum(TOUCHING, MOST_EXCESS / cell)
+    first = np.floor(low / cell + excess)
+    last = np.maximum(np.ceil(high / cell - excess), first + 1.0)
     return cell, np.column_stack([first, last]) * cell

@@ -80,8 +80,8 @@ def _stretches(wall: WallOutline, path: Array, cell: float) -> Iterator[tuple[bo
 
 
 def draw_walls(scene: Scene3D, tables: Sequence[Mapping[str, Any]], path: Array) -> list[WallOutline]:
-    """Draw the walls in the scene's box, before the path (n, 3) [m, world axes] or behind it. Returns them."""
-    walls, floor = walls_in(tables, *scene.box.T), scene.box[2, 0]
+    """Draw the walls in the scene's bounds, before the path (n, 3) [m, world axes] or behind it. Returns them."""
+    walls, floor = walls_in(tables, *scene.bounds.T), scene.box[2, 0]
     thin = path[:: max(1, len(path) // 500)]
     for wall in walls:
         for nearer, rim in _stretches(wall, thin, scene.cell):

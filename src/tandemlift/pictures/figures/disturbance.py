@@ -25,7 +25,7 @@ CAPTION = Caption(
     "The disturbance observer’s estimate of the loads on the vehicle besides rotors, weight and person: force in "
     "world axes, moment in body axes. Bottom, with a sliding-mode controller: the estimation error divided by λ₂, the "
     "largest of the three axes of position and of attitude; the control law’s guarantee requires it to be below 1. "
-    "Grey: a person guides the vehicle.",
+    "Grey: the pilot is ready to follow a person.",
     "Panels over time: disturbing force and moment, components x, y and z; the estimation error divided by λ₂.",
 )
 IN_FLIGHTS = with_any_of("disturbance_force")
@@ -53,7 +53,7 @@ def _condition(ax: Axes, flight: Flight, error: Array) -> None:
 
 @journal
 def draw(flight: Flight) -> Figure:
-    """Draw the disturbance's force [N] and moment [N·m], and its error over λ₂; grey while a person guides."""
+    """Draw the disturbance's force [N] and moment [N·m], and its error over λ₂; grey while the pilot is ready."""
     error = error_over_lambda(flight)
     rows = 2 if error is None else 3
     figure = column_figure(1.35 * rows + 0.3)
@@ -66,13 +66,13 @@ def draw(flight: Flight) -> Figure:
         ax.set_ylabel(label)
     if error is not None:
         _condition(axes[2], flight, error)
-    guided = flight["phase"] == GUIDED if "phase" in flight else np.zeros(len(flight.time), dtype=bool)
+    ready = flight["phase"] == GUIDED if "phase" in flight else np.zeros(len(flight.time), dtype=bool)
     for ax in axes:
         ax.axhline(0.0, color=GREY, lw=0.5, zorder=0)
-        shade(ax, flight.time, guided)
+        shade(ax, flight.time, ready)
         time_axis(ax, flight, label=ax is axes[-1])
     figure.align_ylabels(axes)
-    if guided.any():
-        handles, names = [*handles, Patch(facecolor=PALE)], [*names, "guided"]
+    if ready.any():
+        handles, names = [*handles, Patch(facecolor=PALE)], [*names, "ready"]
     figure.legend(handles, names, loc="outside upper center", ncols=4, columnspacing=1.2)
     return figure

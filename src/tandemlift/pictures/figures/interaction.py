@@ -1,6 +1,6 @@
 """The person's interaction with the vehicle, along each world axis: push, thresholds and reference.
 
-Grey while the push is beyond the threshold and the admittance responds; white while the position is held.
+Grey while the push is beyond the threshold and followed; white while none is and the reference comes to rest.
 """
 # paper: fig8
 
@@ -23,8 +23,8 @@ from tandemlift.pictures.drawing.style import BLUE, INK, PALE, VERMILLION, colum
 CAPTION = Caption(
     "Interaction",
     "The person’s push and the thresholds of the admittance (left axis), and the resulting reference (right axis), "
-    "along each world axis. Grey: the push is beyond the threshold and moves the reference. White: the position is "
-    "held.",
+    "along each world axis. Grey: the push is beyond the threshold and moves the reference. White: no push is "
+    "followed, and the reference comes to rest.",
     "Three panels over time, for x, y and z: push, thresholds and reference position, shaded where the admittance is "
     "active.",
 )
@@ -51,7 +51,8 @@ def _panel(ax: Axes, other: Axes, flight: Flight, axis: int) -> list[Any]:
     """Fill one axis's panel and its second value axis; returns the handles for the legend."""
     push, reference = flight["push_force"][:, axis], flight["admittance_position"][:, axis]
     threshold = float(flight.mission["admittance"]["threshold"][axis])
-    shade(ax, flight.time, flight["admittance_force"][:, axis] != 0.0)
+    gate = "push_active" if "push_active" in flight else "admittance_force"  # guided, the force decays after the push
+    shade(ax, flight.time, flight[gate][:, axis] != 0.0)
     force = line(ax, flight.time, push, color=BLUE, lw=1.2)
     limits = [ax.axhline(s * threshold, color=INK, lw=0.7, ls=(0, (5, 3))) for s in (1.0, -1.0)]
     other.spines["right"].set(visible=True, color=VERMILLION)

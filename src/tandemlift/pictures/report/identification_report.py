@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from tandemlift.core.files import versions
 from tandemlift.flight.channels import channel_of
 from tandemlift.pictures.drawing.figure import Caption
-from tandemlift.pictures.drawing.style import BLUE, GREY, INK, look, page_figure, styled
+from tandemlift.pictures.drawing.style import BLUE, GREY, INK, PAPER, look, page_figure, points, styled
 from tandemlift.pictures.report.page import DASH, Cell, PageTable, code, number, shown_figures, strong, write_page
 
 PAGE = "identification.html"
@@ -42,7 +42,7 @@ CAPTIONS = {
     ),
     "correlation": Caption(
         "Correlation of the errors of estimates",
-        "Blue: errors of opposite sign; red: of the same sign. Rows in the order of the table.",
+        "Blue: errors of opposite sign; red: of the same sign.",
         "A square map of correlations between minus one and one.",
     ),
 }
@@ -55,7 +55,7 @@ def write_identification(found: Mapping[str, Any], folder: Path) -> Path:
         "misfit": draw_misfit(found["misfit"], found["held_back"].get("windows", {})),
         "example": draw_example(found["example"]),
         "autocorrelation": draw_autocorrelation(found["whiteness"]),
-        "correlation": draw_correlation(found["correlation"]),
+        "correlation": draw_correlation([r["key"] for r in found["parameters"]], found["correlation"]),
     }
     used, left_out = found["windows"]["used"], found["windows"]["left_out"]
     return write_page(
@@ -65,7 +65,7 @@ def write_identification(found: Mapping[str, Any], folder: Path) -> Path:
         about=f"From {', '.join(found['logs'])}: {used} windows, {left_out} left out, {found['steps']} steps.",
         verdict=None,
         remarks=found["remarks"],
-        parameters=_table(found["parameters"]),
+        parameters=_table(found["parameters"], found["written"]),
         whole=_table(found["whole_vehicle"]),
         residuals=_residuals(found),
         figures=shown_figures(drawn, CAPTIONS),
@@ -73,14 +73,15 @@ def write_identification(found: Mapping[str, Any], folder: Path) -> Path:
     )
 
 
-def _table(rows: Sequence[Mapping[str, Any]]) -> PageTable:
-    titles = ("", "Estimate", "95 % from", "to", "Unit", "Mission", "Efficiency")
+def _table(rows: Sequence[Mapping[str, Any]], written: Mapping[str, float] | None = None) -> PageTable:
+    titles = ("", "Estimate", "95 % from", "to", "Unit", "Mission", *["Written"] * bool(written), "Efficiency")
     lines = [
         [
             code(r["key"]),
             *[number(r[name]) for name in ("value", "low", "high")],
             r["unit"],
             number(r["start"]),
+            *([number(written[r["key"]])] if written else ()),
             f"{r['efficiency']:.2f}" if r["excited"] else strong("not excited"),
         ]
         for r in rows
@@ -110,7 +111,8 @@ def draw_estimates(rows: Sequence[Mapping[str, Any]]) -> Figure:
         axes.plot([low, high], [place, place], color=BLUE, lw=1.6)
         marker = "<" if value < -WIDEST else ">" if value > WIDEST else "o"
         at = min(max(value, -WIDEST), WIDEST)
-        axes.plot(at, place, marker, color=INK, ms=3.0, mfc=INK if r["excited"] else "none", clip_on=False)
+        face = INK if r["excited"] else PAPER  # above the interval, which would show through a marker without a face
+        axes.plot(at, place, marker, color=INK, ms=4.0, mew=0.8, mfc=face, zorder=3, clip_on=False)
     axes.set_yticks(range(len(shown)), [r["key"] for r in reversed(shown)])
     axes.axvline(0.0, color=GREY, lw=0.8)
     axes.set_xlim(-WIDEST, WIDEST)
@@ -123,11 +125,12 @@ def draw_misfit(used: Mapping[str, Any], held: Mapping[str, Any]) -> Figure:
     """Draw the residuals of every window over the noise."""
     figure = page_figure(2.4)
     axes = figure.add_subplot()
-    for place, (name, points) in enumerate(used.items()):
+    for place, (name, windows) in enumerate(used.items()):
         style = look(place, ls="none", ms=3.0)
-        axes.plot(*np.transpose(points), marker=".", label=name.removeprefix("measured_").replace("_", " "), **style)
+        axes.plot(*np.transpose(windows), marker=".", label=name.removeprefix("measured_").replace("_", " "), **style)
         if name in held:
             axes.plot(*np.transpose(held[name]), marker="x", **style)
+    axes.margins(x=0.02)
     axes.set_ylim(bottom=0.0)
     axes.set_xlabel("time (s)")
     axes.set_ylabel("residuals over noise (1)")
@@ -170,12 +173,12 @@ def draw_autocorrelation(white: Mapping[str, Any]) -> Figure:
 
 
 @styled
-def draw_correlation(matrix: Sequence[Sequence[float]]) -> Figure:
+def draw_correlation(keys: Sequence[str], matrix: Sequence[Sequence[float]]) -> Figure:
     """Draw the correlations of the errors of estimates as a map."""
-    figure = page_figure(4.2)
+    figure = page_figure(2.2 + 0.14 * len(keys))
     axes: Axes = figure.add_subplot()
     image = axes.imshow(matrix, cmap="RdBu_r", vmin=-1.0, vmax=1.0, interpolation="nearest")
     figure.colorbar(image, ax=axes, label="correlation (1)")
-    axes.set_xticks([])
-    axes.set_yticks([])
+    axes.set_xticks(range(len(keys)), keys, rotation="vertical", fontsize=points(6.5))
+    axes.set_yticks(range(len(keys)), keys, fontsize=points(6.5))
     return figure

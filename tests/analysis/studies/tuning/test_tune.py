@@ -167,8 +167,10 @@ def test_costs_are_ordered_by_bad_outcomes_and_then_by_ratio_which_may_be_negati
 
 def test_the_figure_of_a_search_shows_costs_below_zero(dropped):
     ratios = [-1.1, -0.9, -2.0]
-    shown = draw_search(dropped._replace(history=tuple(Cost(0, ratio) for ratio in ratios))).axes[0].lines[0]
-    assert shown.get_ydata().tolist() == ratios
+    axes = draw_search(dropped._replace(history=tuple(Cost(0, ratio) for ratio in ratios))).axes[0]
+    assert axes.lines[0].get_ydata().tolist() == ratios
+    low, high = axes.get_xlim()
+    assert low < 0.0 < 2.0 < high, "the dots of the first and the last candidate are whole"
 
 
 def test_ctrl_c_keeps_the_best_so_far_and_writes_it_as_unfinished(tmp_path):

@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.contour import ContourSet
 from matplotlib.figure import Figure
 
 from tandemlift.analysis.certification.certificate import Certificate
 from tandemlift.analysis.certification.linear import DISK_PHASE_BAR
 from tandemlift.analysis.linearization.claims import Claim, Tier
-from tandemlift.analysis.linearization.frequency_response import axis_responses
-from tandemlift.analysis.linearization.linear_model import MOST_STATES, LinearModel, modes_of, title_of
-from tandemlift.core.errors import InputError
 from tandemlift.pictures.drawing.figure import Caption
 from tandemlift.pictures.drawing.style import (
     BLUE,
@@ -26,10 +23,8 @@ from tandemlift.pictures.drawing.style import (
     VERMILLION,
     look,
     page_figure,
-    save,
     styled,
 )
-from tandemlift.pictures.report.study.linear_model_figure import Response, draw
 
 CAPTIONS = {
     "margins": Caption(
@@ -47,8 +42,8 @@ CAPTIONS = {
     "limits": Caption(
         "Limits of parameters, over the values of the mission",
         "Bars: from the value at which the vehicle oscillates below it to that above it, by linear models; an arrow: "
-        "no limit on that side. Circles: the limits that flights found by bisection, without a model.",
-        "Horizontal bars of the tolerated range of each parameter, with circles where flights found the limit.",
+        "no limit on that side.",
+        "Horizontal bars of the tolerated range of each parameter, with circles where flights found the limit, if any.",
     ),
     "hand": Caption(
         "Admittance at the hand",
@@ -59,12 +54,17 @@ CAPTIONS = {
     "map": Caption(
         "Stiffest arm over virtual mass and damping",
         "The stiffness [N/m] of a massless arm above which the vehicle that it holds oscillates, by linear models. "
-        "Dot: the mission. Circles and crosses: flights with the arm of the black line, stable and oscillating.",
+        "Dot: the mission. Black line: the mission's stiffness.",
         "A map of the largest stable arm stiffness over virtual mass and virtual damping.",
     ),
 }
+FLOWN = {
+    "limits": " Circles: the limits that flights found by bisection, without a model.",
+    "map": " Circles and crosses: flights with an arm of that stiffness, stable and oscillating.",
+}
 MOST_PHASE = 120.0  # deg
 BESIDE = 1.3  # times the farthest limits, where the axis ends
+EDGE = 0.03  # of a map's sides, beyond which a contour has no label
 
 
 def certificate_figures(certificate: Certificate) -> dict[str, Figure]:
@@ -82,6 +82,16 @@ def certificate_figures(certificate: Certificate) -> dict[str, Figure]:
             drawn[name] = make(tiers[tier])
     limits = [claim for tier in certificate.tiers for claim in tier.claims if claim.range]
     return {**drawn, "limits": draw_limits(limits)} if limits else drawn
+
+
+def certificate_captions(certificate: Certificate) -> dict[str, Caption]:
+    """The captions of the figures; marks of flights are told where there are any."""
+    tiers = certificate.tiers
+    flown = {
+        "limits": any(claim.range and claim.range[1] for tier in tiers for claim in tier.claims),
+        "map": any(tier.curves.get("map", {}).get("flown") for tier in tiers),
+    }
+    return {n: c._replace(text=c.text + FLOWN[n]) if flown.get(n) else c for n, c in CAPTIONS.items()}
 
 
 @styled
@@ -177,18 +187,19 @@ def draw_map(tier: Tier) -> Figure:
     """Draw the stiffest arm over virtual mass and damping."""
     figure = page_figure(3.0)
     axes = figure.add_subplot()
+    axes.set_xscale("log")
+    axes.set_yscale("log")
     data = tier.curves["map"]
-    stiffness = np.maximum(np.array(data["stiffness"], float), 1e-3)
+    stiffness = np.log10(np.maximum(np.array(data["stiffness"], float), 1e-3)).T
     levels = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0]
-    drawn = axes.contourf(data["mass"], data["damping"], np.log10(stiffness).T, np.log10(levels), extend="both")
-    lines = axes.contour(data["mass"], data["damping"], stiffness.T, levels, colors=PAPER, linewidths=0.7)
-    axes.clabel(lines, fmt="%g")
+    over = data["mass"], data["damping"], stiffness
+    drawn = axes.contourf(*over, np.log10(levels), extend="both")
+    lines = axes.contour(*over, np.log10(levels), colors=PAPER, linewidths=0.7)
+    axes.clabel(lines, fmt=lambda level: f"{10.0**level:.4g}", manual=_label_places(axes, lines))
     axes.plot(*data["mission"], "o", color=VERMILLION, ms=6.0, mec=PAPER)
     for x, y, stable in data.get("flown", ()):
         axes.plot(x, y, "o" if stable else "x", color=INK, ms=4.0, mfc=PAPER)
-    axes.contour(data["mass"], data["damping"], stiffness.T, [data["arm_stiffness"]], colors=INK, linewidths=1.4)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    axes.contour(*over, [math.log10(data["arm_stiffness"])], colors=INK, linewidths=1.4)
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_formatter("{x:g}")
         axis.set_minor_formatter("{x:g}")
@@ -199,16 +210,14 @@ def draw_map(tier: Tier) -> Figure:
     return figure
 
 
-def draw_linear_model(connected: LinearModel, path: Path) -> Path:
-    """Draw the modes of a model and a response into a file: that of its position to a push, or of what it has first.
-
-    Raises:
-        InputError: it has too many states.
-    """
-    if len(connected.states) > MOST_STATES:
-        raise InputError(f"{path}: {len(connected.states)} states are too many to draw; at most {MOST_STATES}")
-    inputs, outputs = ([v.name.rpartition("_")[0] for v in vs] for vs in (connected.inputs, connected.outputs))
-    usual = "push_force" if connected.of == "loop" else "disturbance_force"
-    names = usual if usual in inputs else inputs[0], "position" if "position" in outputs else outputs[0]
-    response = Response(" → ".join(names).replace("_", " "), *axis_responses(connected, *names))
-    return save(draw(title_of(connected), [mode.s for mode in modes_of(connected).modes], response), path)
+def _label_places(axes: Axes, lines: ContourSet) -> list[tuple[float, float]]:
+    """The point of each contour that is farthest from the frame, unless it is too near for a label."""
+    low, high = np.log10([axes.get_xlim(), axes.get_ylim()]).T
+    found = list[tuple[float, float]]()
+    for path in lines.get_paths():
+        points = np.asarray(path.vertices, float)
+        off = np.abs((np.log10(points) - low) / (high - low) - 0.5).max(axis=1)
+        if len(off) and off.min() < 0.5 - EDGE:
+            x, y = points[int(np.argmin(off))].tolist()
+            found.append((x, y))
+    return found

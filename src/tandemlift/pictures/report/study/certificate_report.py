@@ -21,21 +21,21 @@ from tandemlift.analysis.linearization.claims import Claim, Tier
 from tandemlift.analysis.robustness.nonlinear import nonlinear_tier
 from tandemlift.analysis.robustness.structured import DEFAULT_BOX, structured_tier
 from tandemlift.core.errors import InputError, extra, unknown
-from tandemlift.core.files import DATA, atomic_write
+from tandemlift.core.files import DATA, __version__, atomic_write
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Progress
 from tandemlift.missions import MissionLike, format_toml, mission_of, tables_of
 from tandemlift.pictures.drawing.style import save
 from tandemlift.pictures.report.page import shown_figures, write_page
 from tandemlift.pictures.report.paper_report import check_typesetting, typeset
-from tandemlift.pictures.report.study.certificate_figures import CAPTIONS, certificate_figures
+from tandemlift.pictures.report.study.certificate_figures import certificate_captions, certificate_figures
 from tandemlift.pictures.report.study.words import command
 
 PAGE, JSON, PDF, SOURCE = "certificate.html", "certificate.json", "certificate.pdf", "report.typ"
 MISSION = "mission.toml"
 NONE, MINUS = "none", "−"
 TIERS = ("linear", "structured", "person", "nonlinear", "statistics")
-PACKAGES = ("tandemlift", "numpy", "scipy", "slycot", "cvxpy")
+PACKAGES = ("numpy", "scipy", "slycot", "cvxpy")
 
 
 def certify(
@@ -100,7 +100,7 @@ def certify(
 
 
 def _versions() -> dict[str, str]:
-    found = dict[str, str]()
+    found = {"tandemlift": __version__}
     for name in PACKAGES:
         try:
             found[name] = version(name)
@@ -122,7 +122,7 @@ def write_certificate(certificate: Certificate, folder: Path) -> list[Path]:
         _write(folder / name, text)
     certificate = _placed(certificate, {f"tandemlift run {name}": command("run", folder / name) for name in files})
     certificate.save(folder / JSON)
-    figures = certificate_figures(certificate)
+    figures, captions = certificate_figures(certificate), certificate_captions(certificate)
     tiers = [
         {"title": t.title, "assumptions": t.assumptions, "reason": t.reason, "rows": [_row(c) for c in t.claims]}
         for t in certificate.tiers
@@ -137,7 +137,7 @@ def write_certificate(certificate: Certificate, folder: Path) -> list[Path]:
         tiers=tiers,
         mission=mission,
         repeat=command("certify", folder / MISSION, "--tiers", ",".join(t.name for t in certificate.tiers)),
-        figures=shown_figures(figures, CAPTIONS),
+        figures=shown_figures(figures, captions),
         versions=f"Computed with {versions}.",
     )
     written = [page, folder / JSON]
@@ -145,7 +145,7 @@ def write_certificate(certificate: Certificate, folder: Path) -> list[Path]:
         check_typesetting()
     except InputError:
         return written
-    shown = [{"file": f"{n}.pdf", "title": CAPTIONS[n].title, "text": CAPTIONS[n].text} for n in figures]
+    shown = [{"file": f"{n}.pdf", "title": captions[n].title, "text": captions[n].text} for n in figures]
     data = {"mission": certificate.mission, "verdict": verdict, "tiers": tiers, "figures": shown, "versions": versions}
     with TemporaryDirectory() as aside:
         parts = Path(aside)

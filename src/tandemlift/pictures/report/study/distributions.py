@@ -13,10 +13,11 @@ from tandemlift.core.types import Array
 from tandemlift.pictures.drawing.figure import Caption
 from tandemlift.pictures.drawing.panels import legend_above
 from tandemlift.pictures.drawing.style import look, page_figure, styled
-from tandemlift.pictures.report.study.words import compared, is_far, shown_quantity
+from tandemlift.pictures.report.study.words import compared, is_far, pooled, shown_quantity
 
 MOST_CURVES = 8
 POINTS = 1_000  # of a curve
+LINE = 0.2  # in, of a legend, for which the figure has room
 CAPTION = Caption(
     "Distributions",
     "The share of rows whose value is at most that on the axis. Rows with a bad outcome are left out. An axis is "
@@ -52,7 +53,8 @@ def draw_distributions(rows: StudyRows) -> Figure:
     """Draw the cumulative distribution of each quantity, a panel each."""
     count = len(rows.quantities)
     columns = min(count, 2)
-    figure = page_figure(0.45 + 1.9 * -(-count // columns))
+    height = 0.45 + 1.9 * -(-count // columns)
+    figure = page_figure(height)
     axes = figure.subplots(-(-count // columns), columns, squeeze=False)
     for place, (ax, quantity) in enumerate(zip(axes.flat, rows.quantities, strict=False)):
         _panel(ax, rows, quantity)
@@ -63,5 +65,11 @@ def draw_distributions(rows: StudyRows) -> Figure:
     groups = compared(rows, MOST_CURVES)
     if len(groups) > 1:
         handles = [Line2D([], [], **look(place, lw=1.1)) for place in range(len(groups))]
-        legend_above(figure, handles, [group.name for group in groups], "outside upper left")
+        legend = legend_above(figure, handles, [group.name for group in groups], "outside upper left")
+        figure.set_size_inches(figure.style.size(figure.get_figwidth(), height + max(0.0, legend - LINE)))
     return figure
+
+
+def caption_of(rows: StudyRows) -> Caption:
+    """The caption of the distributions; it names what each curve pools."""
+    return CAPTION._replace(text=CAPTION.text + pooled(rows, MOST_CURVES))

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -10,6 +12,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from tandemlift.analysis.linearization.frequency_response import frequency_response
+from tandemlift.analysis.linearization.linear_model import MOST_STATES, LinearModel, modes_of, title_of
+from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.pictures.drawing.style import (
     BLUE,
@@ -20,29 +25,73 @@ from tandemlift.pictures.drawing.style import (
     StyledFigure,
     page_figure,
     points,
+    save,
     styled,
 )
 
 LINEAR = 0.1  # 1/s, within which the axes of the poles are linear
 RATIOS = (0.1, 0.3, 0.7)  # damping ratios that are drawn
 ROOM = 2.0  # by how much the axes go beyond the poles
-SMALLEST = 1e-9  # of the largest response: a smaller one is rounding, and not drawn
+LOWEST, HIGHEST, POINTS = 0.02, 0.45, 300  # Hz, of the sample rate; points of a drawn response
+SMALLEST = 1e-12  # of the largest response at a frequency: a smaller one is rounding of the model, and not drawn
+AXES = {"roll": "x", "pitch": "y", "yaw": "z"}
+NAME = re.compile(r"(\w+?)_([a-z]+_\d+|[^_]+)")
 
 
 class Response(NamedTuple):
     """How an input moves an output.
 
     Attributes:
-        title: names both.
+        title: names both, and says how many of their responses are drawn.
         unit: of the curves' sizes.
         frequencies: [Hz] (F).
-        curves: the response (F) along each axis, by its label.
+        curves: the drawn responses (F) by label; NaN where one is only rounding.
     """
 
     title: str
     unit: str
     frequencies: Array
     curves: Mapping[str, NDArray[np.complexfloating]]
+
+
+def response_of(model: LinearModel, input: str, output: str) -> Response:
+    """The responses of a group of outputs to one of inputs: along like axes, else of the first inputs that move any.
+
+    Args:
+        model: the model.
+        input: name of a group of inputs, such as "push_force".
+        output: that of outputs, such as "position".
+    """
+    columns, rows = (
+        [i for i, v in enumerate(variables) if split(v.name)[0] == group]
+        for variables, group in ((model.inputs, input), (model.outputs, output))
+    )
+    frequencies = np.geomspace(LOWEST, HIGHEST / model.step, POINTS)
+    responses = frequency_response(model, frequencies)[:, rows][:, :, columns]
+    # coupling that symmetry forbids is as small as the rounding of the flight's state, next to what is allowed
+    sizes = np.abs(responses)
+    responses[sizes <= SMALLEST * sizes.max(axis=(1, 2), keepdims=True)] = np.nan
+    names = [[split(v[i].name)[1] for i in at] for v, at in ((model.inputs, columns), (model.outputs, rows))]
+    moved = {
+        (f"{a} → {b}".replace("_", " "), AXES.get(a, a) == AXES.get(b, b)): responses[:, i, j]
+        for j, a in enumerate(names[0])
+        for i, b in enumerate(names[1])
+        if np.isfinite(responses[:, i, j]).any()
+    }
+    alike = {label: curve for (label, like), curve in moved.items() if like}
+    curves = alike or {label: curve for (label, _), curve in moved.items()}
+    curves = dict(list(curves.items())[: len(COMPONENTS)])
+    title = f"{input} → {output}".replace("_", " ") + f": {len(curves)} of {responses[0].size} responses"
+    units = [
+        f"({u})" if set(u) & set(" /") else u for u in (model.outputs[rows[0]].unit, model.inputs[columns[0]].unit)
+    ]
+    return Response(title, "/".join(units), frequencies, curves)
+
+
+def split(name: str) -> tuple[str, str]:
+    """The group and the component of a name: "push_force", "x"; "rotor_thrusts", "rotor_1"; of one word, it twice."""
+    found = NAME.fullmatch(name)
+    return (found[1], found[2]) if found else (name, name)
 
 
 @styled
@@ -53,6 +102,8 @@ def draw(title: str, poles: Sequence[complex], response: Response) -> Figure:
     _poles(figure.add_subplot(grid[:, 0]), np.array(poles))
     _response(figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, 1]), response)
     figure.suptitle(title, fontsize=points(9.5))
+    if response.curves:
+        figure.legend(loc="outside lower right", ncols=len(COMPONENTS))
     return figure
 
 
@@ -81,11 +132,12 @@ def _poles(axes: Axes, s: NDArray[np.complexfloating]) -> None:
 
 def _response(size: Axes, phase: Axes, response: Response) -> None:
     frequencies = response.frequencies
-    largest = max((np.abs(values).max() for values in response.curves.values()), default=0.0)
-    for (label, values), style in zip(response.curves.items(), COMPONENTS, strict=False):
-        curve = np.where(np.abs(values) > SMALLEST * largest, values, np.nan)
+    for (label, curve), style in zip(response.curves.items(), COMPONENTS, strict=False):
+        drawn = np.isfinite(curve)
+        angles = np.full(len(curve), np.nan)
+        angles[drawn] = np.degrees(np.unwrap(np.angle(curve[drawn])))
         size.loglog(frequencies, np.abs(curve), label=label, **style)
-        phase.semilogx(frequencies, np.degrees(np.unwrap(np.angle(np.nan_to_num(curve)))), **style)
+        phase.semilogx(frequencies, angles, **style)
     size.set_title(response.title)
     size.set_ylabel(f"size [{response.unit}]")
     phase.set_ylabel("phase [deg]")
@@ -94,4 +146,18 @@ def _response(size: Axes, phase: Axes, response: Response) -> None:
     for axes in (size, phase):
         axes.grid(True)
         axes.set_xlim(frequencies[0], frequencies[-1])
-    size.legend(loc="lower left")
+
+
+def draw_linear_model(connected: LinearModel, path: Path) -> Path:
+    """Draw the modes of a model and a response into a file: that of its position to a push, or of what it has first.
+
+    Raises:
+        InputError: it has too many states.
+    """
+    if len(connected.states) > MOST_STATES:
+        raise InputError(f"{path}: {len(connected.states)} states are too many to draw; at most {MOST_STATES}")
+    inputs, outputs = ([split(v.name)[0] for v in vs] for vs in (connected.inputs, connected.outputs))
+    usual = "push_force" if connected.of == "loop" else "disturbance_force"
+    names = usual if usual in inputs else inputs[0], "position" if "position" in outputs else outputs[0]
+    modes = [mode.s for mode in modes_of(connected).modes]
+    return save(draw(title_of(connected), modes, response_of(connected, *names)), path)

@@ -19,7 +19,14 @@ from tandemlift.analysis.studies.study_rows import Places, RowGroup, StudyRows
 from tandemlift.core.types import Array
 from tandemlift.pictures.drawing.figure import Caption
 from tandemlift.pictures.drawing.style import BLUE, GREY, LIGHT_BLUE, VERMILLION, page_figure, points, styled
-from tandemlift.pictures.report.study.words import QuantityDisplay, compared, is_far, shown_column, shown_quantity
+from tandemlift.pictures.report.study.words import (
+    QuantityDisplay,
+    compared,
+    is_far,
+    pooled,
+    shown_column,
+    shown_quantity,
+)
 
 MOST_GROUPS = 3
 MOST_QUANTITIES = 2  # beside the share of bad outcomes
@@ -37,7 +44,7 @@ class MapAxis(NamedTuple):
     size: int
     edges: Array | None
     texts: tuple[str, ...]
-    is_log: bool = False  # bins have equal widths on a logarithmic scale
+    is_log: bool = False  # bins have equal widths on a logarithmic scale, or values equal ratios
 
 
 def axis_of(rows: StudyRows, column: str, axes: int) -> MapAxis:
@@ -49,7 +56,8 @@ def axis_of(rows: StudyRows, column: str, axes: int) -> MapAxis:
         return MapAxis(shown, values.astype(np.intp), len(rows.texts[column]), None, rows.texts[column])
     if len(known) <= (MOST_VALUES if column in rows.study.grid else BINS[0]):
         cell = np.where(finite, np.searchsorted(known, values), -1)
-        return MapAxis(shown, cell, len(known), None, tuple(f"{v:.4g}".replace("-", "−") for v in known))
+        texts = tuple(f"{v:.4g}".replace("-", "−") for v in known)
+        return MapAxis(shown, cell, len(known), None, texts, _is_geometric(known) or is_far(known))
     cells = len(values) / PER_CELL / len(compared(rows, MOST_GROUPS))
     count = int(np.clip(cells ** (1.0 / axes), *BINS))
     keys = [key for key, drawn in rows.study.plan.drawn.items() if isinstance(drawn, LogUniform)]
@@ -57,6 +65,13 @@ def axis_of(rows: StudyRows, column: str, axes: int) -> MapAxis:
     edges = (np.geomspace if is_log else np.linspace)(known[0], known[-1], count + 1)
     cell = np.where(finite, np.clip(np.searchsorted(edges, values, "right") - 1, 0, count - 1), -1)
     return MapAxis(shown, cell.astype(np.intp), count, edges, (), is_log)
+
+
+def _is_geometric(values: Array) -> bool:
+    """Whether ascending values (n,) have equal ratios, as those of a grid with logarithmic spacing; two do not tell."""
+    if len(values) < 3 or values[0] <= 0.0:
+        return False
+    return bool(np.ptp(np.diff(np.log(values))) < 1e-6 * np.log(values[-1] / values[0]))
 
 
 def map_columns(rows: StudyRows) -> list[str]:
@@ -119,13 +134,19 @@ def _ticks(axis: Axis, of: MapAxis) -> None:
     step = -(-of.size // MOST_LABELS)
     if of.edges is None:
         axis.set_ticks(np.arange(0, of.size, step), of.texts[::step])
-        return
-    if of.is_log:
+    else:
+        _round_ticks(axis, of.edges, of.is_log)
+
+
+def _round_ticks(axis: Axis, values: Array, is_log: bool) -> None:
+    """Scale and ticks of an axis at round numbers, for ascending values (n,)."""
+    if is_log:
         (axis.axes.set_xscale if isinstance(axis, XAxis) else axis.axes.set_yscale)("log")
         axis.set_major_formatter("{x:g}")
         axis.set_minor_formatter(NullFormatter())
-    far = of.is_log and of.edges[-1] > 5.0 * of.edges[0]
-    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)) if far else MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
+    far = is_log and values[-1] > 5.0 * values[0]
+    subs = (1.0, 2.0, 5.0) if values[-1] < 100.0 * values[0] else (1.0,)
+    axis.set_major_locator(LogLocator(subs=subs) if far else MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
 
 
 def _map(ax: Axes, x: MapAxis, y: MapAxis, formed: Array, colours: Mapping[str, Any]) -> QuadMesh:
@@ -216,8 +237,10 @@ def draw_curves(rows: StudyRows, column: str) -> Figure:
             axes[0].set_title(group.name, loc="left", fontsize=points(8.5))
     for ax in grid[-1]:
         ax.set_xlabel(axis.shown.label)
-        if column in rows.texts or axis.is_log:
+        if column in rows.texts:
             _ticks(ax.xaxis, axis)
+        elif axis.is_log:
+            _round_ticks(ax.xaxis, _places(axis), is_log=True)
     return figure
 
 
@@ -229,10 +252,13 @@ def caption_of(rows: StudyRows, figure: Figure, *, over_two: bool) -> Caption:
     if rows.quantities:
         band = "" if over_two else ", with the band from the 5th to the 95th percentile"
         drawn.append(f"the median of a quantity{' in those without' if bad else ''}{band}")
-    said = f"{', and '.join(drawn)}."
+    said = f"{', and '.join(drawn)}.{pooled(rows, MOST_GROUPS)}"
     if not over_two:
         text = f"Over the parameter that varies: {said} Drawn values are binned."
         return Caption("Over the parameter", text, "Curves over the parameter, a row for each group of rows.")
     text = f"Over two of the parameters that vary: {said} Values of a grid have a cell each; drawn values are binned."
-    text += " Hatched cells have no row." if any(ax.patch.get_hatch() for ax in figure.axes) else ""
+    if any(ax.patch.get_hatch() for ax in figure.axes):
+        lacking = any(np.isnan(rows.values[q.name][~rows.bad]).any() for q in rows.quantities)
+        needed = " that ended well" * bad + " with a value" * lacking if rows.quantities else ""
+        text += f" Hatched: no row{f', or of a quantity no row{needed}' if needed else ''}."
     return Caption("Maps", text, "Heat maps over two parameters, a row for each group of rows.")

@@ -27,7 +27,7 @@ def _figures(rows: StudyRows, folder: Path | None) -> list[ShownFigure]:
     drawn, captions = dict[str, "Figure"](), dict[str, "Caption"]()
     if rows.quantities:
         drawn["distributions"] = distributions.draw_distributions(rows)
-        captions["distributions"] = distributions.CAPTION
+        captions["distributions"] = distributions.caption_of(rows)
     columns = maps.map_columns(rows)
     if columns and (rows.quantities or rows.bad.any()):
         both = len(columns) == 2
@@ -73,6 +73,7 @@ def write_study_report(
         refusals=sections.refusals(rows),
         findings=sections.findings(rows),
         measured=list(sections.measured(rows)),
+        lacking=rows.lacking,
         bad=sections.counted(int(rows.bad.sum()), "row"),
         figures=_figures(rows, figures),
         influence=sections.influence(rows),

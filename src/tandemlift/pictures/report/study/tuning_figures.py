@@ -30,6 +30,7 @@ CAPTIONS = {
         "A panel for each component of the goals: two curves rising from 0 to 100 %, present and new values.",
     ),
 }
+MARGIN = 0.01  # of the candidates, so that the dots of the first and the last are whole
 MOST_PANELS, ROW = 9, 1.75  # panels, in
 FEW = 1e-3  # spread of a value below which an axis is widened
 WIDE = 30.0  # ratio of costs from which an axis is logarithmic
@@ -61,8 +62,10 @@ def draw_search(found: Tuning) -> Figure:
     if found.history[0].bad == least_bad:
         ax.axhline(found.history[0].ratio, color=GREY, lw=1.0, ls=(0, (4, 2)), label="present values")
     _log_if_wide(ax, float(known.min()), top)
-    ax.set_xlim(0, max(len(ratios) - 1, 1))
+    last = max(len(ratios) - 1, 1)
+    ax.set_xlim(-MARGIN * last, (1.0 + MARGIN) * last)
     bad = "" if not least_bad else f" ({least_bad} bad outcomes)"
+    ax.xaxis.set_major_locator(MaxNLocator(integer=True))
     ax.set(xlabel="candidate", ylabel=f"cost{bad}")
     figure.legend(loc="outside upper left", ncols=3)
     return figure

@@ -74,8 +74,20 @@ def compared(rows: StudyRows, most: int) -> list[RowGroup]:
     """Groups of rows, at most that many: all, those of each controller, case, mission or engine, or one."""
     if len(rows.groups) <= most:
         return rows.groups
-    for name in BY:
-        codes, names = rows.labels[name]
-        if 1 < len(names) <= most:
-            return [RowGroup(text, np.flatnonzero(codes == i)) for i, text in enumerate(names)]
-    return [RowGroup("all rows", np.arange(len(rows)))]
+    if not (name := _told_apart(rows, most)):
+        return [RowGroup("all rows", np.arange(len(rows)))]
+    codes, names = rows.labels[name]
+    return [RowGroup(text, np.flatnonzero(codes == i)) for i, text in enumerate(names)]
+
+
+def _told_apart(rows: StudyRows, most: int) -> str:
+    """The label by which at most so many groups are told apart where there are more; "" for one group of all rows."""
+    return next((name for name in BY if 1 < len(rows.labels[name].names) <= most), "")
+
+
+def pooled(rows: StudyRows, most: int) -> str:
+    """A sentence that names what `compared` pools, after a space; "" where it pools nothing."""
+    kept = BY if len(rows.groups) <= most else (_told_apart(rows, most),)
+    names = [f"{name}s" for name in BY if name not in kept and len(rows.labels[name].names) > 1]
+    words = " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+    return f" {words.capitalize()} are pooled." if names else ""
