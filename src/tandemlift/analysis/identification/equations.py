@@ -91,7 +91,7 @@ class Equations(NamedTuple):
         sides: by stream (W, C).
         rows: residuals in blocks over their standard deviation, by stream (W, blocks, width); NaN without a sample.
         columns: derivatives of the predictions of these, of streams with a bias (W, C, blocks, width).
-        misfit: mean squares of whitened samples within `HUBER`, by stream (W,).
+        misfit: mean squares of whitened samples within `HUBER`, by stream (W,); NaN without a sample.
         spread: robust standard deviations of samples by stream.
     """
 
@@ -185,8 +185,8 @@ class Linearisation:
             if (used := part.used[samples.window]).any():
                 found.spread[name] = robust_sd(r[used]) * e.noise[name]
             clipped = np.minimum(np.sum(r * r, axis=1) / r.shape[1], HUBER**2)
-            counts = np.maximum(np.bincount(samples.window, minlength=len(w.first)), 1)
-            found.misfit[name] = np.bincount(samples.window, clipped, len(w.first)) / counts
+            counts = np.bincount(samples.window, minlength=len(w.first))
+            found.misfit[name] = np.bincount(samples.window, clipped, len(w.first)) / np.where(counts, counts, np.nan)
             size = np.abs(r)
             weight = np.minimum(1.0, HUBER / np.maximum(size, HUBER)) if robust else np.ones_like(r)
             weight = weight * (size < ABSURD) if robust == CAREFUL else weight

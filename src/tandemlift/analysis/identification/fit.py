@@ -16,6 +16,7 @@ from tandemlift.analysis.identification.equations import (
     NormalEquations,
 )
 from tandemlift.analysis.identification.prediction import moved_starts
+from tandemlift.analysis.identification.windows import FEWEST
 from tandemlift.core.types import Array, Progress
 
 PLAIN_STEPS, MOST_STEPS = 3, 14
@@ -86,17 +87,21 @@ class VehicleSearch(Linearisation):
             self.estimate.noise[name] = max(float(np.median(own)), 1e-12)
 
     def _leave_out(self, equations: list[Equations]) -> None:
-        """Leave out the windows that no vehicle explains and those beside them, but never more than half of a log.
+        """Leave out the windows that no vehicle explains, the worst first, up to half of a log; then those beside them.
 
-        Those that the present vehicle explains come back.
+        A log keeps `FEWEST` of these. Windows that the present vehicle explains come back.
         """
         for part, own in zip(self.parts, equations, strict=True):
-            worst = np.zeros(len(part.starts))
+            worst = np.zeros(len(part.used))
             for name, size in own.misfit.items():
-                count = part.windows.samples[name].values.size / len(size)
-                allowed = max(UNEXPLAINED, CHANCE * np.sqrt(2.0 / max(count, 1.0)))
-                worst = np.maximum(worst, np.nan_to_num(size / np.nanmedian(size) - 1.0, nan=np.inf) / allowed)
-            out = worst > max(1.0, float(np.median(worst)))
+                samples = part.windows.samples[name]
+                count = np.bincount(samples.window, minlength=len(size)) * samples.values.shape[1]
+                allowed = np.maximum(UNEXPLAINED, CHANCE * np.sqrt(2.0 / np.maximum(count, 1)))
+                worst = np.fmax(worst, (size / np.nanmedian(size) - 1.0) / allowed)
+            out = worst > 1.0
             near = np.abs(part.windows.first[:, None] - part.windows.first[out]) <= part.windows.length
-            kept = ~near.any(axis=1)
-            part.used = kept if kept.sum() >= 0.5 * len(kept) else part.used
+            beside = near.any(axis=1)
+            order, count = np.lexsort((-worst, ~beside, ~out)), len(out)
+            gone = max(min(int(out.sum()), count // 2), min(int(beside.sum()), count - FEWEST))
+            part.used = np.ones_like(out)
+            part.used[order[:gone]] = False

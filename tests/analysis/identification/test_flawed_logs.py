@@ -1,0 +1,90 @@
+"""Identification from logs with flaws: pushes that nothing measured, silent sensors."""
+
+import numpy as np
+import pytest
+
+import tandemlift as tl
+from tandemlift.analysis.identification.identify import reference_rows
+from tandemlift.analysis.logs.log import JOINTS, PUSH, Log, Stream, log_of
+from tandemlift.missions import load_mission
+
+START = "iris"
+TRUTH = {
+    "vehicle.payload.mass": 0.62,
+    "vehicle.payload.center_of_mass": [0.0, 0.05, 0.0],
+    "actuators.delay": 0.013,
+    "vehicle.quadrotors.0.mass": 1.6,
+}
+EXCITED = (("thrust", 0.5), ("roll", 0.3), ("pitch", 0.03), ("yaw", 0.06))
+FLOWN = {
+    "mission.duration": 34.0,
+    "mission.log_interval": 0.001,
+    "phases.land_start": 90.0,
+    "pushes": [],
+    "excitation.model": "multisine",
+    "excitation.begin": 13.0,
+    "excitation.duration": 21.0,
+    "excitation.lines": [
+        {"axis": axis, "frequency": f, "amplitude": size, "phase": 0.7 * k * k}
+        for axis, size in EXCITED
+        for k, f in enumerate((0.35, 0.6, 1.0, 1.7, 2.9, 4.9, 8.0))
+    ],
+}
+PUSHES = [  # of five, between which hardly a window is calm
+    {"force": force, "time": time, "sigma": 0.4}
+    for force, time in (
+        ([3.0, 0.0, 0.0], 16.0),
+        ([0.0, 3.0, 0.0], 20.0),
+        ([-3.0, 0.0, 0.0], 24.0),
+        ([0.0, -3.0, 0.0], 28.0),
+        ([2.0, 0.0, 0.0], 32.0),
+    )
+]
+ONE = {"force": [3.0, 3.0, 2.0], "time": 22.5, "sigma": 0.4}
+pytestmark = pytest.mark.filterwarnings("ignore::tandemlift.FlightWarning")
+
+
+def flown(*pushes):
+    """The log of a flight under pushes, without what only a simulation knows."""
+    log = log_of(tl.fly(load_mission(START, TRUTH | FLOWN | {"pushes": pushes})))
+    return Log({name: stream for name, stream in log.items() if name not in (*PUSH, "rotor_commands")}, "flawed")
+
+
+def identified(log, mission=START, **options):
+    weighed = {"vehicle.payload.mass": TRUTH["vehicle.payload.mass"]}
+    return tl.identify(log, mission, weighed=weighed, progress=lambda done, of: None, **options)
+
+
+def errors(found):
+    """Errors over the standard deviations of the intervals, by key."""
+    truth = reference_rows(load_mission(START, TRUTH))
+    return {r.key: abs(r.value - truth[r.key]) / r.half * 1.96 for r in (*found.rows, *found.whole) if r.excited}
+
+
+@pytest.fixture(scope="module")
+def log():
+    return flown()
+
+
+@pytest.fixture(scope="module")
+def pushed():
+    return flown(ONE)
+
+
+def test_more_pushes_than_half_a_log_has_windows_for_leave_it_the_calm_ones():
+    found = identified(flown(*PUSHES))
+    assert found.details["windows"] == {"used": 8, "left_out": 15}
+    assert max(errors(found).values()) < 2.5
+    assert any("half of a log" in text for text in found.remarks)
+
+
+def test_joints_that_are_silent_in_most_windows_hide_no_push(pushed):
+    heard = {}
+    for name in JOINTS:
+        time, values = pushed[name]
+        there = (time < 14.5) | (time > 29.0)
+        heard[name] = Stream(time[there], values[there])
+    found = identified(Log({**pushed, **heard}, "silent"))
+    assert 2 <= found.details["windows"]["left_out"] <= 6
+    assert max(errors(found).values()) < 3.0
+    assert not any("half of a log" in text for text in found.remarks)
