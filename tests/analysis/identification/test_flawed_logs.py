@@ -88,3 +88,9 @@ def test_joints_that_are_silent_in_most_windows_hide_no_push(pushed):
     assert 2 <= found.details["windows"]["left_out"] <= 6
     assert max(errors(found).values()) < 3.0
     assert not any("half of a log" in text for text in found.remarks)
+
+
+def test_one_push_does_not_throw_the_search_off(pushed):
+    found = identified(pushed)
+    assert 2 <= found.details["windows"]["left_out"] <= 6
+    assert max(errors(found).values()) < 3.0

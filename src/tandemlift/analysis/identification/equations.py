@@ -26,7 +26,7 @@ from tandemlift.core.types import Array
 from tandemlift.engines.vehicle_unknowns import Unknowns
 
 HUBER = 3.0
-PLAIN, ROBUST, CAREFUL = range(3)  # least squares of beginnings; Huber's weights; these, and none beyond `ABSURD`
+ROUGH, ROBUST, CAREFUL = range(3)  # Huber's weights: of beginnings, by their own spread; of all; none beyond `ABSURD`
 GROUP = 1.0  # s, about which a bias is constant
 MOST_GROUPS = 60
 ABSURD = 8.0  # standard deviations from where on a residual does not count
@@ -163,13 +163,13 @@ class Linearisation:
         return {name: max(float(np.median(values)), 1e-12) for name, values in found.items()}
 
     def linearised(self, robust: int) -> tuple[list[Equations], NormalEquations]:
-        """The equations about the present estimate; of plain least squares, those of the windows' beginnings."""
+        """The equations about the present estimate; `ROUGH` ones are those of the windows' beginnings."""
         equations = [self._equations(part, robust) for part in self.parts]
         return equations, self._reduced(equations)
 
     def _equations(self, part: LogInSearch, robust: int) -> Equations:
         e, n, predictor = self.estimate, self.unknowns.numbers(self.estimate.q), part.predictor
-        if robust == PLAIN:
+        if robust == ROUGH:
             predictor = replace(predictor, windows=part.windows.beginnings())
         w = predictor.windows
         squares, moved = predictor.squares(n, True)
@@ -187,8 +187,8 @@ class Linearisation:
             clipped = np.minimum(np.sum(r * r, axis=1) / r.shape[1], HUBER**2)
             counts = np.bincount(samples.window, minlength=len(w.first))
             found.misfit[name] = np.bincount(samples.window, clipped, len(w.first)) / np.where(counts, counts, np.nan)
-            size = np.abs(r)
-            weight = np.minimum(1.0, HUBER / np.maximum(size, HUBER)) if robust else np.ones_like(r)
+            size = np.abs(r) / (max(1.0, robust_sd(r)) if robust == ROUGH else 1.0)
+            weight = np.minimum(1.0, HUBER / np.maximum(size, HUBER))
             weight = weight * (size < ABSURD) if robust == CAREFUL else weight
             mean, count, late = _block_means(w, samples, r, weight)
             J, root = self._columns(derivatives, name, place, late), np.sqrt(count)

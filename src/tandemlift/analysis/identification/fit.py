@@ -9,8 +9,8 @@ import numpy as np
 
 from tandemlift.analysis.identification.equations import (
     CAREFUL,
-    PLAIN,
     ROBUST,
+    ROUGH,
     Equations,
     Linearisation,
     NormalEquations,
@@ -19,7 +19,7 @@ from tandemlift.analysis.identification.prediction import moved_starts
 from tandemlift.analysis.identification.windows import FEWEST
 from tandemlift.core.types import Array, Progress
 
-PLAIN_STEPS, MOST_STEPS = 3, 14
+ROUGH_STEPS, MOST_STEPS = 3, 14
 NEAR, ENOUGH = 20.0, 0.25  # standard deviations: a step below the first is near the end, below the second is it
 UNEXPLAINED = 0.15  # of the mean square of a stream's residuals in the median window, as much more, is no vehicle's
 CHANCE = 5.0  # standard deviations of such a mean square that chance may add
@@ -34,9 +34,9 @@ class VehicleSearch(Linearisation):
     def run(self, progress: Progress | None = None, *, follow: bool = True) -> tuple[list[Equations], NormalEquations]:
         """Search to the end; the equations there.
 
-        At first only the beginning of each window counts, because a wrong vehicle soon tumbles, by plain least squares
-        with the noise that the samples' second differences show. Then large residuals count less. Near the end,
-        unexplained windows are left out and the residuals' own noise counts.
+        At first only the beginning of each window counts, because a wrong vehicle soon tumbles. Noise is what the
+        samples' second differences show, and residuals far off the others count less. Then all that are large do. Near
+        the end, unexplained windows are left out and the residuals' own noise counts.
 
         Args:
             progress: called with (steps done, steps in all).
@@ -44,7 +44,7 @@ class VehicleSearch(Linearisation):
         """
         chosen = MOST_STEPS  # the step before which windows were left out
         for number in range(MOST_STEPS):
-            robust = PLAIN if number < PLAIN_STEPS else CAREFUL if number > chosen else ROBUST
+            robust = ROUGH if number < ROUGH_STEPS else CAREFUL if number > chosen else ROBUST
             equations, normal = self.linearised(robust)
             self.lost = not np.isfinite(normal.information).all()
             if self.lost:
@@ -63,7 +63,7 @@ class VehicleSearch(Linearisation):
                 break
             if number > chosen and follow:
                 self._follow_noise(equations)
-            elif chosen == MOST_STEPS and number >= PLAIN_STEPS and (size < NEAR or number == MOST_STEPS // 2):
+            elif chosen == MOST_STEPS and number >= ROUGH_STEPS and (size < NEAR or number == MOST_STEPS // 2):
                 chosen = number
             if number >= chosen and follow:
                 self._leave_out(equations)
