@@ -1,11 +1,12 @@
-"""Identification from logs with flaws: pushes that nothing measured, silent sensors."""
+"""Identification from logs with flaws: pushes that nothing measured, silent sensors, gaps."""
 
 import numpy as np
 import pytest
 
 import tandemlift as tl
 from tandemlift.analysis.identification.identify import reference_rows
-from tandemlift.analysis.logs.log import JOINTS, PUSH, Log, Stream, log_of
+from tandemlift.analysis.identification.windows import windows_of
+from tandemlift.analysis.logs.log import JOINTS, PUSH, SPEED_COMMANDS, Log, Stream, log_of
 from tandemlift.missions import load_mission
 
 START = "iris"
@@ -50,6 +51,10 @@ def flown(*pushes):
     return Log({name: stream for name, stream in log.items() if name not in (*PUSH, "rotor_commands")}, "flawed")
 
 
+def changed(log, **streams):
+    return Log({**log, **streams}, "changed")
+
+
 def identified(log, mission=START, **options):
     weighed = {"vehicle.payload.mass": TRUTH["vehicle.payload.mass"]}
     return tl.identify(log, mission, weighed=weighed, progress=lambda done, of: None, **options)
@@ -84,7 +89,7 @@ def test_joints_that_are_silent_in_most_windows_hide_no_push(pushed):
         time, values = pushed[name]
         there = (time < 14.5) | (time > 29.0)
         heard[name] = Stream(time[there], values[there])
-    found = identified(Log({**pushed, **heard}, "silent"))
+    found = identified(changed(pushed, **heard))
     assert 2 <= found.details["windows"]["left_out"] <= 6
     assert max(errors(found).values()) < 3.0
     assert not any("half of a log" in text for text in found.remarks)
@@ -94,3 +99,12 @@ def test_one_push_does_not_throw_the_search_off(pushed):
     found = identified(pushed)
     assert 2 <= found.details["windows"]["left_out"] <= 6
     assert max(errors(found).values()) < 3.0
+
+
+def test_windows_after_a_gap_of_the_commands_wait_until_the_rotors_have_settled(log):
+    time, speeds = log[SPEED_COMMANDS]
+    whole = windows_of(log, load_mission(START)).times()
+    gaps = whole[[3, 9, 15]] + [0.4, -0.35, 0.95]  # in a window, before one, at the end of one
+    known = ~np.any((time > gaps[:, None]) & (time < gaps[:, None] + 0.02), axis=0)
+    left = windows_of(changed(log, **{SPEED_COMMANDS: Stream(time[known], speeds[known])}), load_mission(START)).times()
+    assert np.setdiff1d(whole.round(6), left.round(6)) == pytest.approx(whole[[3, 8, 9, 15, 16]], abs=1e-5)

@@ -28,6 +28,7 @@ LONGEST_DELAY = 0.1  # s that a command may be late
 SETTLING = 0.3  # s from the first command until the rotors' speeds are known
 SPIKE = 15.0  # times the usual distance of a sample from the middle of its neighbours
 CLEAR = 6.0  # radii of a rotor above where it stood: no contact, and a ground effect that its theory gives
+GAP = 4.0  # usual intervals between two commands: beyond, nobody knows what the rotors were told
 FEWEST = 8  # windows
 BEGINNING = 0.2  # of a window: its start must be known from there
 
@@ -137,11 +138,11 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
             cut.pushes[:, place] = np.array([np.interp(amid, log[name].time, v) for v in log[name].values.T]).T
     samples = {name: _samples(cut, log[name]) for name in (*IMU, *MOTION, *JOINTS) if name in log}
     cut = replace(cut, samples=samples)
-    usable = _in_flight(cut, log, mission.vehicle) & _have_starts(cut)
+    usable = _in_flight(cut, log, mission.vehicle) & _have_starts(cut) & _commanded(cut)
     if usable.sum() < FEWEST:
         raise InputError(
-            f"{log.source}: flies clear of the floor, with motion and rates measured, in {usable.sum()} windows; "
-            f"{FEWEST} are needed"
+            f"{log.source}: flies clear of the floor, with motion and rates measured and no gap in the commands, in "
+            f"{usable.sum()} windows; {FEWEST} are needed"
         )
     return cut.chosen(usable)
 
@@ -198,6 +199,14 @@ def _have_starts(cut: FlightWindows) -> Truths:
     samples = cut.beginnings().samples
     own = (samples[name].window for name in (*MOTION, IMU[1]) if name in samples)
     return np.all([np.bincount(window, minlength=len(cut.first)) > 1 for window in own], axis=0)
+
+
+def _commanded(cut: FlightWindows) -> Truths:
+    """Whether the commands have no gap in each window, and none in the time before it in which the rotors settle."""
+    time, begin = cut.commands.time, cut.times()
+    gap = np.flatnonzero(np.diff(time) > GAP * np.median(np.diff(time)))
+    next_gap = np.searchsorted(time[gap + 1], begin - (SETTLING + LONGEST_DELAY), side="right")
+    return np.asarray(np.append(time[gap], np.inf)[next_gap] >= begin + cut.length * cut.step)
 
 
 def _in_flight(cut: FlightWindows, log: Log, vehicle: VehicleTable) -> Truths:
