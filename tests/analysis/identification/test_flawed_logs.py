@@ -1,4 +1,4 @@
-"""Identification from logs with flaws: pushes that nothing measured, silent sensors, gaps."""
+"""Identification from logs with flaws: pushes that nothing measured, silent sensors, gaps, another origin."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,8 @@ import pytest
 import tandemlift as tl
 from tandemlift.analysis.identification.identify import reference_rows
 from tandemlift.analysis.identification.windows import windows_of
-from tandemlift.analysis.logs.log import JOINTS, PUSH, SPEED_COMMANDS, Log, Stream, log_of
+from tandemlift.analysis.logs.log import JOINTS, MOTION, PUSH, SPEED_COMMANDS, Log, Stream, log_of
+from tandemlift.engines.driven_vehicle import effect_floor
 from tandemlift.missions import load_mission
 
 START = "iris"
@@ -108,3 +109,13 @@ def test_windows_after_a_gap_of_the_commands_wait_until_the_rotors_have_settled(
     known = ~np.any((time > gaps[:, None]) & (time < gaps[:, None] + 0.02), axis=0)
     left = windows_of(changed(log, **{SPEED_COMMANDS: Stream(time[known], speeds[known])}), load_mission(START)).times()
     assert np.setdiff1d(whole.round(6), left.round(6)) == pytest.approx(whole[[3, 8, 9, 15, 16]], abs=1e-5)
+
+
+def test_the_floor_of_the_ground_effect_is_the_logs_own(log):
+    mission, (time, position) = load_mission(START), log[MOTION[0]]
+    lower = changed(log, **{MOTION[0]: Stream(time, position - [0.0, 0.0, 1.2])})
+    floor = windows_of(log, mission).floor
+    assert floor == effect_floor(mission)[0]
+    assert windows_of(lower, mission).floor == pytest.approx(floor - 1.2)
+    assert windows_of(log.between(14.0, 34.0), mission).floor == floor
+    assert windows_of(lower.between(14.0, 34.0), mission).floor is None  # nothing tells where it is

@@ -16,6 +16,7 @@ from tandemlift.analysis.logs.checks import check_log
 from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, PUSH, SPEED_COMMANDS, Log, Stream
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY, Array
+from tandemlift.engines.driven_vehicle import effect_floor
 from tandemlift.missions import Mission, VehicleTable
 
 Places = NDArray[np.intp]
@@ -62,6 +63,7 @@ class FlightWindows:
         commands: times (n,) [s] and commanded speeds (n, rotors) [rad/s].
         pushes: force [N] and moment [N m] of a logged push amid every step of the grid (count, 6), as `DrivenInputs`.
         samples: by stream.
+        floor: the height z [m], in the log, of a floor with ground effect; None without.
     """
 
     source: str
@@ -74,6 +76,7 @@ class FlightWindows:
     commands: Stream
     pushes: Array
     samples: dict[str, Samples]
+    floor: float | None = None
 
     def times(self) -> Array:
         """The time [s] at which each window begins."""
@@ -138,13 +141,15 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
             cut.pushes[:, place] = np.array([np.interp(amid, log[name].time, v) for v in log[name].values.T]).T
     samples = {name: _samples(cut, log[name]) for name in (*IMU, *MOTION, *JOINTS) if name in log}
     cut = replace(cut, samples=samples)
-    usable = _in_flight(cut, log, mission.vehicle) & _have_starts(cut) & _commanded(cut)
+    flies, rested = _in_flight(cut, log, mission.vehicle)
+    usable = flies & _have_starts(cut) & _commanded(cut)
     if usable.sum() < FEWEST:
         raise InputError(
             f"{log.source}: flies clear of the floor, with motion and rates measured and no gap in the commands, in "
             f"{usable.sum()} windows; {FEWEST} are needed"
         )
-    return cut.chosen(usable)
+    lowest = float(log[MOTION[0]].values[:, 2].min())
+    return replace(cut.chosen(usable), floor=_floor(mission, rested, lowest))
 
 
 def _speeds(log: Log, vehicle: VehicleTable) -> Stream:
@@ -209,16 +214,34 @@ def _commanded(cut: FlightWindows) -> Truths:
     return np.asarray(np.append(time[gap], np.inf)[next_gap] >= begin + cut.length * cut.step)
 
 
-def _in_flight(cut: FlightWindows, log: Log, vehicle: VehicleTable) -> Truths:
-    """Whether each window flies: its rotors carry most of the weight, and it is clear of the floor."""
+def _in_flight(cut: FlightWindows, log: Log, vehicle: VehicleTable) -> tuple[Truths, float | None]:
+    """(Whether each window flies: its rotors carry most of the weight, and it is clear of the floor; z at rest)."""
     quadrotors = vehicle.quadrotors
     mass = vehicle.payload.mass + sum(q.mass for q in quadrotors)
     constants = np.array([q.thrust_constant for q in quadrotors for _ in range(4)])
     time, position = log["measured_position"]
     thrust = np.array([np.interp(time, cut.commands.time, column) for column in cut.commands.values.T]).T ** 2
     resting = thrust @ constants < 0.5 * mass * GRAVITY
-    radius = max(q.rotor_radius for q in quadrotors)
-    lowest = position[resting, 2].min() + CLEAR * radius if resting.any() else -np.inf
-    flies = ~resting & (position[:, 2] > lowest)
+    rested = float(position[resting, 2].min()) if resting.any() else None
+    flies = ~resting & (position[:, 2] > (-np.inf if rested is None else rested + _clear(vehicle)))
     grid = cut.begin + (cut.first[:, None] + np.arange(0, cut.length, cut.block)) * cut.step
-    return np.interp(grid, time, flies.astype(float)).min(axis=1) > 0.5
+    return np.interp(grid, time, flies.astype(float)).min(axis=1) > 0.5, rested
+
+
+def _clear(vehicle: VehicleTable) -> float:
+    return CLEAR * max(q.rotor_radius for q in vehicle.quadrotors)
+
+
+def _floor(mission: Mission, rested: float | None, lowest: float) -> float | None:
+    """The height z [m] of a log's floor with ground effect: below where the vehicle rested, to 0.1 m.
+
+    Without a rest it is that of the mission, if the log's lowest z is clear of it, as a log's z may have any origin.
+    That is as near as `CLEAR` needs, and logs of one place share their machine code.
+    """
+    ground = effect_floor(mission)
+    if ground is None:
+        return None
+    floor, rests = ground
+    if rested is None:
+        return floor if lowest > rests + _clear(mission.vehicle) else None
+    return floor + round(rested - rests, 1)
