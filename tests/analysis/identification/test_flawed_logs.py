@@ -1,12 +1,14 @@
-"""Identification from logs with flaws: pushes that nothing measured, silent sensors, gaps, another origin."""
+"""Identification from flawed logs: pushes that nothing measured, silent sensors, gaps, other origins; and missions."""
 
 import numpy as np
 import pytest
 
 import tandemlift as tl
+from tandemlift.analysis.identification.identification import Identification, Row, with_values
 from tandemlift.analysis.identification.identify import reference_rows
 from tandemlift.analysis.identification.windows import windows_of
 from tandemlift.analysis.logs.log import JOINTS, MOTION, PUSH, SPEED_COMMANDS, Log, Stream, log_of
+from tandemlift.core.errors import InputError
 from tandemlift.engines.driven_vehicle import effect_floor
 from tandemlift.missions import load_mission
 
@@ -59,6 +61,12 @@ def changed(log, **streams):
 def identified(log, mission=START, **options):
     weighed = {"vehicle.payload.mass": TRUTH["vehicle.payload.mass"]}
     return tl.identify(log, mission, weighed=weighed, progress=lambda done, of: None, **options)
+
+
+def refused(log, *parts, mission=START, **options):
+    with pytest.raises(InputError) as error:
+        identified(log, mission, **options)
+    assert all(part in str(error.value) for part in parts), error.value
 
 
 def errors(found):
@@ -119,3 +127,24 @@ def test_the_floor_of_the_ground_effect_is_the_logs_own(log):
     assert windows_of(lower, mission).floor == pytest.approx(floor - 1.2)
     assert windows_of(log.between(14.0, 34.0), mission).floor == floor
     assert windows_of(lower.between(14.0, 34.0), mission).floor is None  # nothing tells where it is
+
+
+def test_moments_and_products_of_inertia_are_set_together_and_what_fails_has_no_interval():
+    thin = {"shape": "beam", "mass": 0.5, "inertia": [0.0835, 0.0835, 0.1667], "products": [-0.083, 0.0, 0.0]}
+    found = {"inertia": [0.0752, 0.0752, 0.15], "products": [-0.0747, 0.0, 0.0]}  # no body with the old products
+    values = {f"vehicle.payload.{name}": value for name, value in found.items()} | {"actuators.delay": [-1.0]}
+    mission, failed = with_values(load_mission(START, {"vehicle.payload": thin}), values)
+    assert list(mission.vehicle.payload.inertia) == found["inertia"]
+    assert list(mission.vehicle.payload.products) == found["products"]
+    assert list(failed) == ["actuators.delay"]
+    keys = "actuators.delay", "vehicle.payload.inertia.x"
+    rows = tuple(Row(key, 0.1, 0.0, 0.2, "", 0.1, True, 1.0) for key in keys)
+    lines = Identification(mission, rows, (), (), {"refused": [*failed]}).toml().splitlines()
+    assert [line.partition(" ")[0] for line in lines if "±" in line] == ["inertia"]
+
+
+def test_a_payload_of_bodies_has_no_place_for_its_numbers(log):
+    payload = {"shape": "bodies", "bodies": [{"mass": 0.5, "ends": [[0, -1, 0], [0, 1, 0]], "radius": 0.03}]}
+    refused(
+        log, 'shape = "bodies" gives vehicle.payload.mass', mission=load_mission(START, {"vehicle.payload": payload})
+    )

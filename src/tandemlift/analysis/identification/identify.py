@@ -35,6 +35,7 @@ from tandemlift.simulation.fly import Flight
 
 HELD_BACK = 0.15  # of the windows
 SHOWN = 100  # blocks of the example
+OF_BODIES = tuple(f"vehicle.payload.{name}" for name in ("mass", "center_of_mass", "inertia", "products"))
 IMPOSSIBLE = 10.0  # times the white noise of samples: residuals that are refused
 
 
@@ -80,12 +81,11 @@ def identify(
         raise InputError("logs: must be one or more")
     if not (0.2 <= window <= 10.0 and 0.0 <= held_back <= 0.5):
         raise InputError(f"window = {window:g} s, held_back = {held_back:g}: must be 0.2 to 10 s, and 0 to 0.5")
+    keys = _keys(mission, parameters)
     cut, other = (
         [windows_of(log_of(one) if isinstance(one, Flight) else one, mission, window) for one in logs]
         for logs in (given, [predict] if predict else [])
     )
-    keys = [key for key in DEFAULT if "area" not in key or mission.wind.model == "air"]
-    keys = keys if parameters is None else list(parameters)
     unknowns = unknowns_of(mission.vehicle, mission.actuators.delay, keys, weighed)
     parts = [_split(w, held_back) for w in cut]
     streams = frozenset(name for w in cut for name in w.samples)
@@ -98,6 +98,18 @@ def identify(
     vehicle = Unknowns(driven_numbers(found.mission.vehicle, found.mission.actuators.delay), ())
     found.details.update(predicted=_predicted(other, vehicle, search, None), seconds=time.perf_counter() - began)
     return found
+
+
+def _keys(mission: Mission, parameters: Sequence[str] | None) -> list[str]:
+    """The keys to estimate: those that are asked for, or all whose value the mission can have."""
+    keys = [key for key in DEFAULT if "area" not in key or mission.wind.model == "air"]
+    keys = keys if parameters is None else list(parameters)
+    if mission.vehicle.payload.shape == "bodies" and (own := [key for key in keys if key in OF_BODIES]):
+        raise InputError(
+            f'mission {mission.mission.name}: vehicle.payload.shape = "bodies" gives {", ".join(own)}, so that '
+            'identified ones have no place: give inertia and products, with shape "beam", or "mesh" and its corners'
+        )
+    return keys
 
 
 def _judged(
@@ -118,14 +130,15 @@ def _judged(
     information = data_information(normal, len(unknowns))
     found, whole, values = _results(search, covariance, mission.vehicle)
     with without_flight_warnings():
-        identified, remarks = with_values(mission, values)
+        identified, refused = with_values(mission, values)
     keys = _with_derivatives(lambda x: _values(unknowns, x), search.estimate.q)
     correlations = correlations_of(keys, covariance.covariance)
+    remarks = [f"{key} = {values[key]} is left as it was: {why}" for key, why in refused.items()]
     remarks += remarks_on(unknowns, correlations, information, white, found, search)
     vehicle = Unknowns(unknowns.numbers(search.estimate.q), ())
     held = _predicted(held_back, vehicle, search, search.estimate.fixed)
     details = _details(search, correlations, covariance, white, misfit_by_window(search, rows), held)
-    details |= {"example": _example(search)}
+    details |= {"example": _example(search), "refused": [*refused]}
     return Identification(identified, tuple(found), tuple(whole), tuple(remarks), details)
 
 
