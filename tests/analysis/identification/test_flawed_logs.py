@@ -129,6 +129,17 @@ def test_the_floor_of_the_ground_effect_is_the_logs_own(log):
     assert windows_of(lower.between(14.0, 34.0), mission).floor is None  # nothing tells where it is
 
 
+def test_samples_that_a_table_holds_for_several_rows_count_once(log):
+    time, mission = log["measured_rates"].time, load_mission(START)
+    table = changed(log, **{name: Stream(time, log[name].at(time)) for name in MOTION})
+    held, plain = windows_of(table, mission), windows_of(log, mission)
+    for name in MOTION:
+        assert np.array_equal(held.samples[name].values, plain.samples[name].values)
+        assert np.array_equal(held.samples[name].step, plain.samples[name].step)
+    assert "measured_position (80%), measured_velocity (80%), measured_attitude (80%)" in held.notes[0]
+    assert not plain.notes
+
+
 def test_moments_and_products_of_inertia_are_set_together_and_what_fails_has_no_interval():
     thin = {"shape": "beam", "mass": 0.5, "inertia": [0.0835, 0.0835, 0.1667], "products": [-0.083, 0.0, 0.0]}
     found = {"inertia": [0.0752, 0.0752, 0.15], "products": [-0.0747, 0.0, 0.0]}  # no body with the old products

@@ -28,6 +28,7 @@ LENGTH = 1.0  # s of a window
 LONGEST_DELAY = 0.1  # s that a command may be late
 SETTLING = 0.3  # s from the first command until the rotors' speeds are known
 SPIKE = 15.0  # times the usual distance of a sample from the middle of its neighbours
+HELD = 0.75  # of the samples of a stream: if fewer are new, a table holds each of them for several rows
 CLEAR = 6.0  # radii of a rotor above where it stood: no contact, and a ground effect that its theory gives
 GAP = 4.0  # usual intervals between two commands: beyond, nobody knows what the rotors were told
 FEWEST = 8  # windows
@@ -64,6 +65,7 @@ class FlightWindows:
         pushes: force [N] and moment [N m] of a logged push amid every step of the grid (count, 6), as `DrivenInputs`.
         samples: by stream.
         floor: the height z [m], in the log, of a floor with ground effect; None without.
+        notes: what was found and changed, in sentences.
     """
 
     source: str
@@ -77,6 +79,7 @@ class FlightWindows:
     pushes: Array
     samples: dict[str, Samples]
     floor: float | None = None
+    notes: tuple[str, ...] = ()
 
     def times(self) -> Array:
         """The time [s] at which each window begins."""
@@ -119,6 +122,7 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
     commands = _speeds(log, mission.vehicle)
     log.require(*IMU, MOTION[0], MOTION[2])
     check_log(log)
+    log, notes = _without_held(log)
     imu = log["measured_specific_force"].time
     interval = float(np.median(np.diff(imu))) if len(imu) > 1 else LONGEST_STEP
     step = interval / np.ceil(interval / LONGEST_STEP - 1e-9)
@@ -149,7 +153,21 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
             f"{usable.sum()} windows; {FEWEST} are needed"
         )
     lowest = float(log[MOTION[0]].values[:, 2].min())
-    return replace(cut.chosen(usable), floor=_floor(mission, rested, lowest))
+    return replace(cut.chosen(usable), floor=_floor(mission, rested, lowest), notes=notes)
+
+
+def _without_held(log: Log) -> tuple[Log, tuple[str, ...]]:
+    """(A log without the samples that repeat the one before in a table that holds them, what was left out)."""
+    streams, held = dict(log), list[str]()
+    for name in (*IMU, *MOTION, *JOINTS):
+        if name in log:
+            time, values = log[name]
+            new = np.insert(np.any(np.diff(values, axis=0) != 0.0, axis=1), 0, True)
+            if new.mean() < HELD:
+                streams[name] = Stream(time[new], values[new])
+                held.append(f"{name} ({1.0 - new.mean():.0%})")
+    said = f"Samples of {', '.join(held)} repeat the one before and are left out: leave such cells of a table empty."
+    return replace(log, streams=streams), (f"{log.source}: {said}",) * bool(held)
 
 
 def _speeds(log: Log, vehicle: VehicleTable) -> Stream:
