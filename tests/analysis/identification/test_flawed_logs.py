@@ -159,3 +159,8 @@ def test_a_payload_of_bodies_has_no_place_for_its_numbers(log):
     refused(
         log, 'shape = "bodies" gives vehicle.payload.mass', mission=load_mission(START, {"vehicle.payload": payload})
     )
+
+
+def test_a_positive_number_cannot_start_from_0(log):
+    no_lag = load_mission(START, {f"vehicle.quadrotors.{i}.lag_up": 0.0 for i in (0, 1)})
+    refused(log, "vehicle.quadrotors.*.lag_up = 0: must start above 0", mission=no_lag)

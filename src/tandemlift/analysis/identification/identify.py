@@ -29,7 +29,7 @@ from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Array, Progress, flat
 from tandemlift.engines.driven_vehicle import whole_vehicle
-from tandemlift.engines.vehicle_unknowns import AXES, DEFAULT, Unknowns, driven_numbers, unknowns_of
+from tandemlift.engines.vehicle_unknowns import AXES, DEFAULT, INERTIAS, Unknowns, driven_numbers, unknowns_of
 from tandemlift.missions import Mission, MissionLike, VehicleTable, mission_of
 from tandemlift.simulation.fly import Flight
 
@@ -60,7 +60,7 @@ def identify(
         logs: one or several, from `read_log`, or flights with sensors.
         mission: of about such a vehicle: from `load_mission`, or its name or path.
         parameters: keys to estimate, of `engines.vehicle_unknowns.KINDS`; all by default, of areas only where the
-            mission's wind is "air".
+            mission's wind is "air" and none is 0.
         weighed: masses [kg] from a scale, right within 0.1 %, by key. Without joint sensors of known scale, or such a
             mass, only ratios of masses to thrust constants can be told.
         window: length of a window [s].
@@ -87,6 +87,7 @@ def identify(
         for logs in (given, [predict] if predict else [])
     )
     unknowns = unknowns_of(mission.vehicle, mission.actuators.delay, keys, weighed)
+    _check_starts(unknowns, mission.mission.name)
     parts = [_split(w, held_back) for w in cut]
     streams = frozenset(name for w in cut for name in w.samples)
     priors = sensor_priors(mission.sensors, len(mission.vehicle.quadrotors), streams)
@@ -102,7 +103,8 @@ def identify(
 
 def _keys(mission: Mission, parameters: Sequence[str] | None) -> list[str]:
     """The keys to estimate: those that are asked for, or all whose value the mission can have."""
-    keys = [key for key in DEFAULT if "area" not in key or mission.wind.model == "air"]
+    air = mission.wind.model == "air" and min(mission.vehicle.payload.areas) > 0.0
+    keys = [key for key in DEFAULT if air or "area" not in key]
     keys = keys if parameters is None else list(parameters)
     if mission.vehicle.payload.shape == "bodies" and (own := [key for key in keys if key in OF_BODIES]):
         raise InputError(
@@ -110,6 +112,16 @@ def _keys(mission: Mission, parameters: Sequence[str] | None) -> list[str]:
             'identified ones have no place: give inertia and products, with shape "beam", or "mesh" and its corners'
         )
     return keys
+
+
+def _check_starts(unknowns: Unknowns, name: str) -> None:
+    """Refuse a number that is estimated by its logarithm and starts from 0."""
+    zero = [u.name for u in unknowns.unknowns if u.positive and u.start == 0.0 and u.kind.field not in INERTIAS]
+    if zero:
+        raise InputError(
+            f"mission {name}: {', '.join(zero)} = 0: must start above 0 to be estimated; set about what it may be, as "
+            "0.02 s for a lag, or leave it out of parameters"
+        )
 
 
 def _judged(
