@@ -164,3 +164,9 @@ def test_a_payload_of_bodies_has_no_place_for_its_numbers(log):
 def test_a_positive_number_cannot_start_from_0(log):
     no_lag = load_mission(START, {f"vehicle.quadrotors.{i}.lag_up": 0.0 for i in (0, 1)})
     refused(log, "vehicle.quadrotors.*.lag_up = 0: must start above 0", mission=no_lag)
+
+
+def test_speeds_above_those_of_the_mission_are_not_cut_off(log):
+    time, speeds = log[SPEED_COMMANDS]
+    faster = changed(log, **{SPEED_COMMANDS: Stream(time, 1.6 * speeds)})
+    refused(faster, "max_speed = 1100 rad/s", f"reach {1.6 * speeds[:, :4].max():.5g} rad/s: set max_speed")

@@ -29,6 +29,7 @@ LONGEST_DELAY = 0.1  # s that a command may be late
 SETTLING = 0.3  # s from the first command until the rotors' speeds are known
 SPIKE = 15.0  # times the usual distance of a sample from the middle of its neighbours
 HELD = 0.75  # of the samples of a stream: if fewer are new, a table holds each of them for several rows
+BEYOND = 0.01  # of the commanded speeds, that may be above the largest
 CLEAR = 6.0  # radii of a rotor above where it stood: no contact, and a ground effect that its theory gives
 GAP = 4.0  # usual intervals between two commands: beyond, nobody knows what the rotors were told
 FEWEST = 8  # windows
@@ -180,9 +181,17 @@ def _speeds(log: Log, vehicle: VehicleTable) -> Stream:
     if len(time) > 1 and np.ptp(values, axis=0).min() == 0.0:
         rotor = int(np.argmin(np.ptp(values, axis=0)))
         raise InputError(f"{log.source}: {name}: column {rotor} is constant, {values[0, rotor]:g}: a dead channel")
+    most = np.array([q.max_speed for q in rotors])
     if name == COMMANDS:
         values = np.sqrt(np.maximum(values, 0.0) / [q.thrust_constant for q in rotors])
-    return Stream(time, np.clip(values, 0.0, [q.max_speed for q in rotors]))
+    elif (beyond := np.mean(values > most * (1.0 + 1e-6), axis=0)).max() > BEYOND:
+        rotor = int(np.argmax(beyond))
+        i, largest = rotor // 4, values[:, rotor // 4 * 4 :][:, :4].max()
+        raise InputError(
+            f"{log.source}: {name}: column {rotor} is above vehicle.quadrotors.{i}.max_speed = {most[rotor]:g} rad/s "
+            f"in {beyond[rotor]:.0%} of its samples; those of quadrotor {i} reach {largest:.5g} rad/s: set max_speed"
+        )
+    return Stream(time, np.clip(values, 0.0, most))
 
 
 def check_columns(log: Log, vehicle: VehicleTable, name_of_mission: str) -> None:
