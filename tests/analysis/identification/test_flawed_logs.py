@@ -170,3 +170,15 @@ def test_speeds_above_those_of_the_mission_are_not_cut_off(log):
     time, speeds = log[SPEED_COMMANDS]
     faster = changed(log, **{SPEED_COMMANDS: Stream(time, 1.6 * speeds)})
     refused(faster, "max_speed = 1100 rad/s", f"reach {1.6 * speeds[:, :4].max():.5g} rad/s: set max_speed")
+
+
+def test_a_stream_that_ends_early_takes_no_windows_of_the_others(log):
+    mission, whole = load_mission(START), windows_of(log, load_mission(START))
+    short = dict(log)
+    for name in JOINTS:
+        time, values = log[name]
+        short[name] = Stream(time[time < 20.0], values[time < 20.0])
+    cut = windows_of(Log(short, "short"), mission)
+    assert np.array_equal(cut.times(), whole.times())
+    assert "measured_joint_force at 20 s, measured_joint_torque at 20 s" in cut.notes[0]
+    assert not whole.notes

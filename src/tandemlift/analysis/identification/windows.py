@@ -6,6 +6,7 @@ clock, at most 2 ms. A sample between two steps is predicted by a straight line 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -129,7 +130,8 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
     step = interval / np.ceil(interval / LONGEST_STEP - 1e-9)
     begin = max(float(commands.time[0]), float(imu[0]))
     begin = float(imu[np.searchsorted(imu, begin - 1e-9)])
-    count = int((min(float(commands.time[-1]), log.end) - begin) / step)
+    ends = _ends(log, commands)
+    count = int((min(ends[name] for name in ends if name not in (*JOINTS, *PUSH)) - begin) / step)
     block = max(1, round(BLOCK / step))
     steps = round(length / (step * block)) * block
     lead = int(np.ceil((SETTLING + LONGEST_DELAY) / step))
@@ -139,11 +141,12 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
             f"{log.source}: commands and sensors overlap for {max(count, 0) * step:.3g} s; {FEWEST} windows "
             f"of {length:g} s are needed, after {SETTLING + LONGEST_DELAY:g} s for delay and lag of the rotors"
         )
+    notes += _early_ends(ends, log.source, length)
     cut = FlightWindows(log.source, step, begin, count, firsts, steps, block, commands, np.zeros((count, 6)), {})
     amid = begin + (np.arange(count) + 0.5) * step
     for name, place in zip(PUSH, (slice(0, 3), slice(3, 6)), strict=True):
         if name in log:
-            cut.pushes[:, place] = np.array([np.interp(amid, log[name].time, v) for v in log[name].values.T]).T
+            cut.pushes[:, place] = _between(amid, log[name])
     samples = {name: _samples(cut, log[name]) for name in (*IMU, *MOTION, *JOINTS) if name in log}
     cut = replace(cut, samples=samples)
     flies, rested = _in_flight(cut, log, mission.vehicle)
@@ -169,6 +172,25 @@ def _without_held(log: Log) -> tuple[Log, tuple[str, ...]]:
                 held.append(f"{name} ({1.0 - new.mean():.0%})")
     said = f"Samples of {', '.join(held)} repeat the one before and are left out: leave such cells of a table empty."
     return replace(log, streams=streams), (f"{log.source}: {said}",) * bool(held)
+
+
+def _ends(log: Log, commands: Stream) -> dict[str, float]:
+    """The last time [s] of each stream that is used, by name."""
+    ends = {name: float(log[name].time[-1]) for name in (*IMU, *MOTION, *JOINTS, *PUSH) if name in log}
+    return ends | {"commands": float(commands.time[-1])}
+
+
+def _early_ends(ends: Mapping[str, float], source: str, length: float) -> tuple[str, ...]:
+    """A sentence about the streams that end a window or more before the last one."""
+    last = max(ends.values())
+    early = [f"{name} at {end:.4g} s" for name, end in ends.items() if end < last - length]
+    said = "later windows do without joints and force gauge; those without another stream are left out"
+    return (f"{source}: The log ends at {last:.4g} s, but {', '.join(early)}: {said}.",) * bool(early)
+
+
+def _between(times: Array, stream: Stream) -> Array:
+    """A stream at some times (n, width), by straight lines; 0 before it begins and after it ends."""
+    return np.array([np.interp(times, stream.time, v, left=0.0, right=0.0) for v in stream.values.T]).T
 
 
 def _speeds(log: Log, vehicle: VehicleTable) -> Stream:
