@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.analysis.logs.checks import check_log
+from tandemlift.analysis.logs.clocks import GAP
 from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, PUSH, SPEED_COMMANDS, Log, Stream
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY, Array
@@ -32,7 +33,6 @@ SPIKE = 15.0  # times the usual distance of a sample from the middle of its neig
 HELD = 0.75  # of the samples of a stream: if fewer are new, a table holds each of them for several rows
 BEYOND = 0.01  # of the commanded speeds, that may be above the largest
 CLEAR = 6.0  # radii of a rotor above where it stood: no contact, and a ground effect that its theory gives
-GAP = 4.0  # usual intervals between two commands: beyond, nobody knows what the rotors were told
 FEWEST = 8  # windows
 BEGINNING = 0.2  # of a window: its start must be known from there
 
