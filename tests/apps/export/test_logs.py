@@ -384,3 +384,11 @@ def test_our_own_flight_is_the_same_log_from_its_file_and_from_its_bag(tmp_path)
         for name in log:
             assert read[name].time == pytest.approx(log[name].time, abs=1e-9)
             assert read[name].values == pytest.approx(log[name].values, abs=1e-9), name
+
+
+def test_a_table_with_two_columns_of_one_name_is_refused(tmp_path):
+    (tmp_path / "twice.csv").write_text("ms,p,q, p,r,s,s\n1,2,3,4,5,6,7\n", "utf-8")
+    with pytest.raises(tl.InputError, match="has 2 columns p: one that is read must have its own name"):
+        tl.read_log(tmp_path / "twice.csv", COLUMNS)
+    rates = {"time": "ms", "measured_rates": {"columns": ["q", "r", "q"]}}
+    assert tl.read_log(tmp_path / "twice.csv", rates)["measured_rates"].values.tolist() == [[3.0, 5.0, 3.0]]

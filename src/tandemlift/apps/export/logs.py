@@ -248,7 +248,13 @@ def csv_table(path: Path) -> LogTables:
     if not rows:
         raise InputError(f"{path}: has no line of numbers below the line of names")
     table = dict(zip(names, np.array(rows).reshape(len(rows), len(names)).T, strict=True))
-    return LogTables([""], lambda _: table, lambda _, name: table[name])
+
+    def column(_: str, name: str) -> Array:
+        if names.count(name) > 1:
+            raise InputError(f"{path}: has {names.count(name)} columns {name}: one that is read must have its own name")
+        return table[name]
+
+    return LogTables([""], lambda _: table, column)
 
 
 def _numbers(place: str, names: list[str], cells: list[str]) -> list[float]:
