@@ -182,3 +182,7 @@ def test_a_stream_that_ends_early_takes_no_windows_of_the_others(log):
     assert np.array_equal(cut.times(), whole.times())
     assert "measured_joint_force at 20 s, measured_joint_torque at 20 s" in cut.notes[0]
     assert not whole.notes
+
+
+def test_a_weighed_mass_must_be_among_the_parameters(log):
+    refused(log, "weighed vehicle.payload.mass: no mass is among", parameters=["vehicle.quadrotors.*.lag_up"])
