@@ -19,7 +19,7 @@ from tandemlift.analysis.identification.prediction import moved_starts
 from tandemlift.analysis.identification.windows import FEWEST
 from tandemlift.core.types import Array, Progress
 
-ROUGH_STEPS, MOST_STEPS = 3, 14
+ROUGH_STEPS, FAR_STEPS, MOST_STEPS = 3, 7, 20  # of beginnings; the most with every window; the most of all
 NEAR, ENOUGH = 20.0, 0.25  # standard deviations: a step below the first is near the end, below the second is it
 UNEXPLAINED = 0.15  # of the mean square of a stream's residuals in the median window, as much more, is no vehicle's
 CHANCE = 5.0  # standard deviations of such a mean square that chance may add
@@ -63,7 +63,7 @@ class VehicleSearch(Linearisation):
                 break
             if number > chosen and follow:
                 self._follow_noise(equations)
-            elif chosen == MOST_STEPS and number >= ROUGH_STEPS and (size < NEAR or number == MOST_STEPS // 2):
+            elif chosen == MOST_STEPS and number >= ROUGH_STEPS and (size < NEAR or number == FAR_STEPS):
                 chosen = number
             if number >= chosen and follow:
                 self._leave_out(equations)
