@@ -42,6 +42,7 @@ class LogInSearch:
         groups: the group of biases of each window (W,).
         spans: the first of its groups, and the mean time [s] of each.
         used: whether a window counts (W,): one that no vehicle explains does not, but its start is found.
+        crowded: whether more than half of them, which no vehicle explains or which are beside such, should not.
     """
 
     predictor: Predictor
@@ -49,6 +50,7 @@ class LogInSearch:
     groups: Places
     spans: tuple[int, Array]
     used: Truths
+    crowded: bool = False
 
     @property
     def windows(self) -> FlightWindows:

@@ -87,9 +87,10 @@ class VehicleSearch(Linearisation):
             self.estimate.noise[name] = max(float(np.median(own)), 1e-12)
 
     def _leave_out(self, equations: list[Equations]) -> None:
-        """Leave out the windows that no vehicle explains, the worst first, up to half of a log; then those beside them.
+        """Leave out the windows that no vehicle explains and those beside them.
 
-        A log keeps `FEWEST` of these. Windows that the present vehicle explains come back.
+        If these are more than half of a log, the worst go first, and `FEWEST` stay. Windows that the present vehicle
+        explains come back.
         """
         for part, own in zip(self.parts, equations, strict=True):
             worst = np.zeros(len(part.used))
@@ -101,7 +102,8 @@ class VehicleSearch(Linearisation):
             out = worst > 1.0
             near = np.abs(part.windows.first[:, None] - part.windows.first[out]) <= part.windows.length
             beside = near.any(axis=1)
-            order, count = np.lexsort((-worst, ~beside, ~out)), len(out)
-            gone = max(min(int(out.sum()), count // 2), min(int(beside.sum()), count - FEWEST))
+            count, gone = len(out), int(beside.sum())
+            part.crowded = gone > count // 2
+            order = np.lexsort((-worst, ~beside, ~out))[: min(gone, count - FEWEST) if part.crowded else gone]
             part.used = np.ones_like(out)
-            part.used[order[:gone]] = False
+            part.used[order] = False

@@ -202,6 +202,9 @@ def remarks_on(
         said.append(
             f"{search.left_out} windows are left out, which no vehicle explains: as under a push, a contact or a fault."
         )
-    if any((~part.used).sum() >= len(part.used) // 2 for part in search.parts):
-        said.append("That is half of a log or more: others may be disturbed, too. Fly again, without pushes.")
+    if crowded := [part.windows.source for part in search.parts if part.crowded]:
+        said.append(
+            f"{', '.join(crowded)}: no vehicle explains more than half of the windows, with those beside them: some of "
+            "those that count may be disturbed, too. Fly again, without pushes."
+        )
     return said
