@@ -154,6 +154,13 @@ def test_the_offset_that_is_told_is_the_one_that_is_flown():
     assert tl.fly(mission).metrics()["position_max_error_after_10s_m"][2] == pytest.approx(predicted, rel=0.03)
 
 
+@pytest.mark.parametrize(("name", "force"), [("iris", 3.0), ("crazyflie-stick", 3.0 * 0.09936 / 3.5)])
+def test_the_hand_that_pushes_suits_the_weight(name, force):
+    checks = [check for check in flight_checks(load_mission(name)) if check.check == "push"]
+    assert [check.value for check in checks] == pytest.approx([force] * 3, rel=1e-12)
+    assert f"a push of {force:.3g} N level" in "".join(check.text for check in checks)
+
+
 def test_a_caller_pushes_the_vehicle_and_not_the_air():
     simulation = tl.Simulation(load_mission("paper"))
     simulation.step(push=[1.0, 0.0, 0.0], point=[0.0, 1.2, 0.0])

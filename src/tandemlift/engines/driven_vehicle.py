@@ -31,7 +31,8 @@ from tandemlift.core.vector import (
 from tandemlift.engines.compiled import advance
 from tandemlift.engines.compiled_contact import CompiledPlant
 from tandemlift.engines.models.links import parts_layout_from
-from tandemlift.engines.models.scene import Scene, floor_from
+from tandemlift.engines.models.scene import Scene
+from tandemlift.parts.contact.standing import standing_on
 from tandemlift.parts.mechanics.push import CentralPush, PushSamples
 from tandemlift.parts.mechanics.rigid_body import RigidBody, State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
@@ -152,10 +153,12 @@ def with_vehicle_numbers(table: VehicleTable, n: VehicleNumbers) -> VehicleTable
     return table.model_copy(update={"payload": payload, "quadrotors": tuple(quadrotors), "drag": drag})
 
 
-def effect_floor(scene: Scene) -> float | None:
-    """The height z [m] of a floor with ground effect; None without."""
-    floor = floor_from(scene, Vehicle.from_settings(scene.vehicle))
-    return None if isinstance(floor, Absent) or not scene.ground.effect else float(floor.height)
+def effect_floor(scene: Scene) -> tuple[float, float] | None:
+    """(Height z [m] of a floor with ground effect, that of the vehicle standing on it); None without."""
+    if scene.ground.model == "none" or not scene.ground.effect:
+        return None
+    ground = standing_on(scene.ground, scene.vehicle, scene.plant.mass_scale, scene.mission.step, scene.initial)
+    return float(ground.floor.height), float(ground.rests)
 
 
 def driven_body(

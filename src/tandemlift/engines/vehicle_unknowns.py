@@ -250,6 +250,8 @@ def _weighed(unknowns: Unknowns, weighed: Mapping[str, float]) -> Unknowns:
     found = list(unknowns.unknowns)
     masses = {u.name: i for i, u in enumerate(found) if u.kind.unit == "kg"}
     for key, value in weighed.items():
+        if not masses:
+            raise InputError(f"weighed {key}: no mass is among the parameters: add it to them, or leave weighed out")
         if key not in masses:
             raise unknown("weighed mass", key, masses)
         if not value > 0.0:

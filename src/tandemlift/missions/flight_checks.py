@@ -70,8 +70,8 @@ CHECKS = (
     ),
     FlightCheck(
         "push",
-        "3 N of a hand: down at the middle; level, and upright, above the outermost quadrotor. Beyond the limit it is "
-        "close, and no failure",
+        "3 N of a hand for 3.5 kg, in proportion to the mass: down at the middle; level, and upright, above "
+        "the outermost quadrotor. Beyond the limit it is close, and no failure",
         "push at which the first rotor reaches a limit in hover",
         "N",
         f"{ROTORS}, interactive guidance",

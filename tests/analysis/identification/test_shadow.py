@@ -142,6 +142,7 @@ def in_g(log):
         (lambda log: log, {"initial.position": [1.0, 0.0, 0.03]}, r"begins at .* set initial\.position"),
         (lambda log: log, {"changes": [{"time": 1.0, "key": "admittance.mass", "value": 2.0}]}, "changes in flight"),
         (lambda log: log.between(-1.0, 0.0005), {}, "before the first step"),
+        (lambda log: log.between(9.0, 12.0), {}, r"begins at 9 s, .* shift it by log\.aligned\(\[\*log\], -9\)"),
         (in_g, {}, 'seems to be in g: unit = "g"'),
     ],
 )
@@ -154,6 +155,13 @@ def test_a_log_with_fewer_samples_than_the_mission_takes_is_warned_of(log):
     sparse = log.mapped(lambda name, stream: Stream(stream.time[::4], stream.values[::4])).between(-1.0, 2.0)
     with pytest.warns(tl.FlightWarning, match=r"measured_rates at 250 Hz, .* at 1000 Hz.*set sensors.interval = 0.004"):
         tl.shadow(sparse, iris())
+
+
+def test_a_stream_that_begins_late_is_warned_of(log):
+    time, values = log["measured_joint_force"]
+    late = replace(log, streams={**log.streams, "measured_joint_force": Stream(time[2000:], values[2000:])})
+    with pytest.warns(tl.FlightWarning, match=r"begins late: measured_joint_force at .* the first sample is held"):
+        tl.shadow(late.between(-1.0, 3.0), iris())
 
 
 def test_a_vehicle_of_more_quadrotors_is_refused(log):

@@ -147,6 +147,16 @@ def test_a_ulog_of_a_flight_makes_the_shadow_command_what_was_flown(tmp_path):
     assert thrusts.sum(axis=1).mean() == pytest.approx(weight, rel=0.01)  # less ground effect
 
 
+def test_a_topic_that_ends_early_or_has_a_gap_is_not_held_beside_another_one(tmp_path):
+    stamps = 1_000_000 + 5000 * np.arange(200)
+    second = stamps[(np.arange(200) < 50) | (np.arange(200) > 70)][:-60] + 1000
+    topics = {n: ("float x", at.tolist(), 1e-6 * at[:, None]) for n, at in (("left", stamps), ("right", second))}
+    columns = {"measured_joint_force": {"topic": ["left", "right"], "columns": ["x", "x", "x"]}}
+    time, values = tl.read_log(ulog_of(tmp_path / "joints.ulg", topics), columns)["measured_joint_force"]
+    assert values == pytest.approx(np.tile(1.0 + 5e-3 + time[:, None], 6), abs=1e-5)
+    assert np.round(time / 5e-3).tolist() == [*range(49), *range(71, 139)]
+
+
 # ---- bags, written by rosbags
 
 
@@ -225,9 +235,10 @@ def holds_the_motion(log):
         assert log[name].values == pytest.approx(values, abs=1e-9)
         assert log[name].time == pytest.approx(TIME, abs=1e-9)
     assert same_attitude(log[MOTION[2]].values)
-    second = np.maximum(LINEAR, LINEAR[:1] + np.arange(1.0, 7.0) * 0.025)  # held before its first sample
-    assert log[JOINTS[0]].values == pytest.approx(np.hstack([LINEAR[:, :3], 100.0 + second[:, :3]]))
-    assert log[JOINTS[1]].values == pytest.approx(np.hstack([LINEAR[:, 3:], 100.0 + second[:, 3:]]))
+    felt = LINEAR[1:]  # the second joint begins after the first
+    assert log[JOINTS[0]].time == pytest.approx(TIME[1:])
+    assert log[JOINTS[0]].values == pytest.approx(np.hstack([felt[:, :3], 100.0 + felt[:, :3]]))
+    assert log[JOINTS[1]].values == pytest.approx(np.hstack([felt[:, 3:], 100.0 + felt[:, 3:]]))
 
 
 def test_bags_of_a_vehicle_with_our_topics_are_read_by_their_stamps(tmp_path):
@@ -373,3 +384,11 @@ def test_our_own_flight_is_the_same_log_from_its_file_and_from_its_bag(tmp_path)
         for name in log:
             assert read[name].time == pytest.approx(log[name].time, abs=1e-9)
             assert read[name].values == pytest.approx(log[name].values, abs=1e-9), name
+
+
+def test_a_table_with_two_columns_of_one_name_is_refused(tmp_path):
+    (tmp_path / "twice.csv").write_text("ms,p,q, p,r,s,s\n1,2,3,4,5,6,7\n", "utf-8")
+    with pytest.raises(tl.InputError, match="has 2 columns p: one that is read must have its own name"):
+        tl.read_log(tmp_path / "twice.csv", COLUMNS)
+    rates = {"time": "ms", "measured_rates": {"columns": ["q", "r", "q"]}}
+    assert tl.read_log(tmp_path / "twice.csv", rates)["measured_rates"].values.tolist() == [[3.0, 5.0, 3.0]]

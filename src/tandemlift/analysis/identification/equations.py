@@ -26,7 +26,7 @@ from tandemlift.core.types import Array
 from tandemlift.engines.vehicle_unknowns import Unknowns
 
 HUBER = 3.0
-PLAIN, ROBUST, CAREFUL = range(3)  # least squares of beginnings; Huber's weights; these, and none beyond `ABSURD`
+ROUGH, ROBUST, CAREFUL = range(3)  # Huber's weights: of beginnings, by their own spread; of all; none beyond `ABSURD`
 GROUP = 1.0  # s, about which a bias is constant
 MOST_GROUPS = 60
 ABSURD = 8.0  # standard deviations from where on a residual does not count
@@ -42,6 +42,7 @@ class LogInSearch:
         groups: the group of biases of each window (W,).
         spans: the first of its groups, and the mean time [s] of each.
         used: whether a window counts (W,): one that no vehicle explains does not, but its start is found.
+        crowded: whether more than half of them, which no vehicle explains or which are beside such, should not.
     """
 
     predictor: Predictor
@@ -49,6 +50,7 @@ class LogInSearch:
     groups: Places
     spans: tuple[int, Array]
     used: Truths
+    crowded: bool = False
 
     @property
     def windows(self) -> FlightWindows:
@@ -91,7 +93,7 @@ class Equations(NamedTuple):
         sides: by stream (W, C).
         rows: residuals in blocks over their standard deviation, by stream (W, blocks, width); NaN without a sample.
         columns: derivatives of the predictions of these, of streams with a bias (W, C, blocks, width).
-        misfit: mean squares of whitened samples within `HUBER`, by stream (W,).
+        misfit: mean squares of whitened samples within `HUBER`, by stream (W,); NaN without a sample.
         spread: robust standard deviations of samples by stream.
     """
 
@@ -163,13 +165,13 @@ class Linearisation:
         return {name: max(float(np.median(values)), 1e-12) for name, values in found.items()}
 
     def linearised(self, robust: int) -> tuple[list[Equations], NormalEquations]:
-        """The equations about the present estimate; of plain least squares, those of the windows' beginnings."""
+        """The equations about the present estimate; `ROUGH` ones are those of the windows' beginnings."""
         equations = [self._equations(part, robust) for part in self.parts]
         return equations, self._reduced(equations)
 
     def _equations(self, part: LogInSearch, robust: int) -> Equations:
         e, n, predictor = self.estimate, self.unknowns.numbers(self.estimate.q), part.predictor
-        if robust == PLAIN:
+        if robust == ROUGH:
             predictor = replace(predictor, windows=part.windows.beginnings())
         w = predictor.windows
         squares, moved = predictor.squares(n, True)
@@ -185,10 +187,10 @@ class Linearisation:
             if (used := part.used[samples.window]).any():
                 found.spread[name] = robust_sd(r[used]) * e.noise[name]
             clipped = np.minimum(np.sum(r * r, axis=1) / r.shape[1], HUBER**2)
-            counts = np.maximum(np.bincount(samples.window, minlength=len(w.first)), 1)
-            found.misfit[name] = np.bincount(samples.window, clipped, len(w.first)) / counts
-            size = np.abs(r)
-            weight = np.minimum(1.0, HUBER / np.maximum(size, HUBER)) if robust else np.ones_like(r)
+            counts = np.bincount(samples.window, minlength=len(w.first))
+            found.misfit[name] = np.bincount(samples.window, clipped, len(w.first)) / np.where(counts, counts, np.nan)
+            size = np.abs(r) / (max(1.0, robust_sd(r)) if robust == ROUGH else 1.0)
+            weight = np.minimum(1.0, HUBER / np.maximum(size, HUBER))
             weight = weight * (size < ABSURD) if robust == CAREFUL else weight
             mean, count, late = _block_means(w, samples, r, weight)
             J, root = self._columns(derivatives, name, place, late), np.sqrt(count)

@@ -9,16 +9,17 @@ import numpy as np
 
 from tandemlift.analysis.identification.equations import (
     CAREFUL,
-    PLAIN,
     ROBUST,
+    ROUGH,
     Equations,
     Linearisation,
     NormalEquations,
 )
 from tandemlift.analysis.identification.prediction import moved_starts
+from tandemlift.analysis.identification.windows import FEWEST
 from tandemlift.core.types import Array, Progress
 
-PLAIN_STEPS, MOST_STEPS = 3, 14
+ROUGH_STEPS, FAR_STEPS, MOST_STEPS = 3, 7, 20  # of beginnings; the most with every window; the most of all
 NEAR, ENOUGH = 20.0, 0.25  # standard deviations: a step below the first is near the end, below the second is it
 UNEXPLAINED = 0.15  # of the mean square of a stream's residuals in the median window, as much more, is no vehicle's
 CHANCE = 5.0  # standard deviations of such a mean square that chance may add
@@ -33,9 +34,9 @@ class VehicleSearch(Linearisation):
     def run(self, progress: Progress | None = None, *, follow: bool = True) -> tuple[list[Equations], NormalEquations]:
         """Search to the end; the equations there.
 
-        At first only the beginning of each window counts, because a wrong vehicle soon tumbles, by plain least squares
-        with the noise that the samples' second differences show. Then large residuals count less. Near the end,
-        unexplained windows are left out and the residuals' own noise counts.
+        At first only the beginning of each window counts, because a wrong vehicle soon tumbles. Noise is what the
+        samples' second differences show, and residuals far off the others count less. Then all that are large do. Near
+        the end, unexplained windows are left out and the residuals' own noise counts.
 
         Args:
             progress: called with (steps done, steps in all).
@@ -43,7 +44,7 @@ class VehicleSearch(Linearisation):
         """
         chosen = MOST_STEPS  # the step before which windows were left out
         for number in range(MOST_STEPS):
-            robust = PLAIN if number < PLAIN_STEPS else CAREFUL if number > chosen else ROBUST
+            robust = ROUGH if number < ROUGH_STEPS else CAREFUL if number > chosen else ROBUST
             equations, normal = self.linearised(robust)
             self.lost = not np.isfinite(normal.information).all()
             if self.lost:
@@ -62,7 +63,7 @@ class VehicleSearch(Linearisation):
                 break
             if number > chosen and follow:
                 self._follow_noise(equations)
-            elif chosen == MOST_STEPS and number >= PLAIN_STEPS and (size < NEAR or number == MOST_STEPS // 2):
+            elif chosen == MOST_STEPS and number >= ROUGH_STEPS and (size < NEAR or number == FAR_STEPS):
                 chosen = number
             if number >= chosen and follow:
                 self._leave_out(equations)
@@ -86,17 +87,23 @@ class VehicleSearch(Linearisation):
             self.estimate.noise[name] = max(float(np.median(own)), 1e-12)
 
     def _leave_out(self, equations: list[Equations]) -> None:
-        """Leave out the windows that no vehicle explains and those beside them, but never more than half of a log.
+        """Leave out the windows that no vehicle explains and those beside them.
 
-        Those that the present vehicle explains come back.
+        If these are more than half of a log, the worst go first, and `FEWEST` stay. Windows that the present vehicle
+        explains come back.
         """
         for part, own in zip(self.parts, equations, strict=True):
-            worst = np.zeros(len(part.starts))
+            worst = np.zeros(len(part.used))
             for name, size in own.misfit.items():
-                count = part.windows.samples[name].values.size / len(size)
-                allowed = max(UNEXPLAINED, CHANCE * np.sqrt(2.0 / max(count, 1.0)))
-                worst = np.maximum(worst, np.nan_to_num(size / np.nanmedian(size) - 1.0, nan=np.inf) / allowed)
-            out = worst > max(1.0, float(np.median(worst)))
+                samples = part.windows.samples[name]
+                count = np.bincount(samples.window, minlength=len(size)) * samples.values.shape[1]
+                allowed = np.maximum(UNEXPLAINED, CHANCE * np.sqrt(2.0 / np.maximum(count, 1)))
+                worst = np.fmax(worst, (size / np.nanmedian(size) - 1.0) / allowed)
+            out = worst > 1.0
             near = np.abs(part.windows.first[:, None] - part.windows.first[out]) <= part.windows.length
-            kept = ~near.any(axis=1)
-            part.used = kept if kept.sum() >= 0.5 * len(kept) else part.used
+            beside = near.any(axis=1)
+            count, gone = len(out), int(beside.sum())
+            part.crowded = gone > count // 2
+            order = np.lexsort((-worst, ~beside, ~out))[: min(gone, count - FEWEST) if part.crowded else gone]
+            part.used = np.ones_like(out)
+            part.used[order] = False

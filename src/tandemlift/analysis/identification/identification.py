@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -14,7 +14,7 @@ import numpy as np
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import write_file
 from tandemlift.core.types import Array
-from tandemlift.missions import Mission, changed, format_toml, tables_of
+from tandemlift.missions import Mission, MissionTemplate, format_toml, tables_of
 
 MISSION, JSON = "vehicle.toml", "identification.json"
 NORMAL = 1.959963984540054  # of 95 % of a normal distribution
@@ -108,17 +108,17 @@ class Identification:
         return [folder / MISSION, folder / JSON]
 
     def toml(self) -> str:
-        """The mission as TOML; each identified key has its interval as a comment."""
+        """The mission as TOML; each identified key that it has, has its interval as a comment."""
         comments = dict[str, list[str]]()
         for row in self.rows:
             key = re.sub(r"\.[xyz]$", "", row.key)
             how = f"± {row.half:.2g}" if row.excited else "not excited: prior"
             comments.setdefault(key, []).append(how)
-        return _commented(format_toml(tables_of(self.mission)), comments)
+        return _commented(format_toml(tables_of(self.mission)), comments, self.details.get("refused", ()))
 
 
-def _commented(text: str, comments: Mapping[str, list[str]]) -> str:
-    """TOML text with comments behind the lines of keys; `*` stands for each quadrotor."""
+def _commented(text: str, comments: Mapping[str, list[str]], refused: Collection[str]) -> str:
+    """TOML text with comments behind the lines of keys, but of those refused; `*` stands for each quadrotor."""
     lines, table, count = list[str](), "", dict[str, int]()
     for line in text.splitlines():
         head = re.match(r"\[\[?([\w.]+)\]\]?$", line)
@@ -130,19 +130,26 @@ def _commented(text: str, comments: Mapping[str, list[str]]) -> str:
         key, _, value = line.partition(" = ")
         full = f"{table}.{key}"
         own = comments.get(full) or comments.get(re.sub(r"quadrotors\.\d+", "quadrotors.*", full))
-        lines.append(f"{line}  # {', '.join(own)}" if own and value else line)
+        lines.append(f"{line}  # {', '.join(own)}" if own and value and full not in refused else line)
     return "# Identified from logs; behind each identified key: half its interval of 95 %.\n" + "\n".join(lines) + "\n"
 
 
-def with_values(mission: Mission, values: Mapping[str, list[float]]) -> tuple[Mission, list[str]]:
-    """The mission with identified values by key, and the keys whose values no mission may have."""
-    failed = list[str]()
+def with_values(mission: Mission, values: Mapping[str, list[float]]) -> tuple[Mission, dict[str, str]]:
+    """The mission with identified values by key; the keys whose values no mission may have, and why.
+
+    Those of the payload are set together, as moments and products of inertia must suit each other.
+    """
+    template, groups = MissionTemplate.of(mission), dict[str, dict[str, object]]()
     for key, own in values.items():
-        value: object = own if len(own) > 1 else own[0]
+        group = groups.setdefault("payload" if key.startswith("vehicle.payload.") else key, {})
+        group[key] = own if len(own) > 1 else own[0]
+    known, failed = dict[str, object](), dict[str, str]()
+    for group in groups.values():
         try:
-            mission = changed(mission, key, value)
+            mission = template.mission(known | group)
+            known |= group
         except InputError as error:
-            failed.append(f"{key} = {value} is left as it was: {error}")
+            failed |= dict.fromkeys(group, str(error))
     return mission, failed
 
 

@@ -29,12 +29,13 @@ from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Array, Progress, flat
 from tandemlift.engines.driven_vehicle import whole_vehicle
-from tandemlift.engines.vehicle_unknowns import AXES, DEFAULT, Unknowns, driven_numbers, unknowns_of
+from tandemlift.engines.vehicle_unknowns import AXES, DEFAULT, INERTIAS, Unknowns, driven_numbers, unknowns_of
 from tandemlift.missions import Mission, MissionLike, VehicleTable, mission_of
 from tandemlift.simulation.fly import Flight
 
 HELD_BACK = 0.15  # of the windows
 SHOWN = 100  # blocks of the example
+OF_BODIES = tuple(f"vehicle.payload.{name}" for name in ("mass", "center_of_mass", "inertia", "products"))
 IMPOSSIBLE = 10.0  # times the white noise of samples: residuals that are refused
 
 
@@ -59,7 +60,7 @@ def identify(
         logs: one or several, from `read_log`, or flights with sensors.
         mission: of about such a vehicle: from `load_mission`, or its name or path.
         parameters: keys to estimate, of `engines.vehicle_unknowns.KINDS`; all by default, of areas only where the
-            mission's wind is "air".
+            mission's wind is "air" and none is 0.
         weighed: masses [kg] from a scale, right within 0.1 %, by key. Without joint sensors of known scale, or such a
             mass, only ratios of masses to thrust constants can be told.
         window: length of a window [s].
@@ -80,13 +81,13 @@ def identify(
         raise InputError("logs: must be one or more")
     if not (0.2 <= window <= 10.0 and 0.0 <= held_back <= 0.5):
         raise InputError(f"window = {window:g} s, held_back = {held_back:g}: must be 0.2 to 10 s, and 0 to 0.5")
+    keys = _keys(mission, parameters)
     cut, other = (
         [windows_of(log_of(one) if isinstance(one, Flight) else one, mission, window) for one in logs]
         for logs in (given, [predict] if predict else [])
     )
-    keys = [key for key in DEFAULT if "area" not in key or mission.wind.model == "air"]
-    keys = keys if parameters is None else list(parameters)
     unknowns = unknowns_of(mission.vehicle, mission.actuators.delay, keys, weighed)
+    _check_starts(unknowns, mission.mission.name)
     parts = [_split(w, held_back) for w in cut]
     streams = frozenset(name for w in cut for name in w.samples)
     priors = sensor_priors(mission.sensors, len(mission.vehicle.quadrotors), streams)
@@ -98,6 +99,29 @@ def identify(
     vehicle = Unknowns(driven_numbers(found.mission.vehicle, found.mission.actuators.delay), ())
     found.details.update(predicted=_predicted(other, vehicle, search, None), seconds=time.perf_counter() - began)
     return found
+
+
+def _keys(mission: Mission, parameters: Sequence[str] | None) -> list[str]:
+    """The keys to estimate: those that are asked for, or all whose value the mission can have."""
+    air = mission.wind.model == "air" and min(mission.vehicle.payload.areas) > 0.0
+    keys = [key for key in DEFAULT if air or "area" not in key]
+    keys = keys if parameters is None else list(parameters)
+    if mission.vehicle.payload.shape == "bodies" and (own := [key for key in keys if key in OF_BODIES]):
+        raise InputError(
+            f'mission {mission.mission.name}: vehicle.payload.shape = "bodies" gives {", ".join(own)}, so that '
+            'identified ones have no place: give inertia and products, with shape "beam", or "mesh" and its corners'
+        )
+    return keys
+
+
+def _check_starts(unknowns: Unknowns, name: str) -> None:
+    """Refuse a number that is estimated by its logarithm and starts from 0."""
+    zero = [u.name for u in unknowns.unknowns if u.positive and u.start == 0.0 and u.kind.field not in INERTIAS]
+    if zero:
+        raise InputError(
+            f"mission {name}: {', '.join(zero)} = 0: must start above 0 to be estimated; set about what it may be, as "
+            "0.02 s for a lag, or leave it out of parameters"
+        )
 
 
 def _judged(
@@ -118,15 +142,17 @@ def _judged(
     information = data_information(normal, len(unknowns))
     found, whole, values = _results(search, covariance, mission.vehicle)
     with without_flight_warnings():
-        identified, remarks = with_values(mission, values)
+        identified, refused = with_values(mission, values)
     keys = _with_derivatives(lambda x: _values(unknowns, x), search.estimate.q)
     correlations = correlations_of(keys, covariance.covariance)
+    remarks = [f"{key} = {values[key]} is left as it was: {why}" for key, why in refused.items()]
     remarks += remarks_on(unknowns, correlations, information, white, found, search)
     vehicle = Unknowns(unknowns.numbers(search.estimate.q), ())
     held = _predicted(held_back, vehicle, search, search.estimate.fixed)
     details = _details(search, correlations, covariance, white, misfit_by_window(search, rows), held)
     written = reference_rows(identified)
-    details |= {"example": _example(search), "written": {row.key: written.get(row.key, row.value) for row in found}}
+    details |= {"example": _example(search), "refused": [*refused]}
+    details |= {"written": {row.key: written.get(row.key, row.value) for row in found}}
     return Identification(identified, tuple(found), tuple(whole), tuple(remarks), details)
 
 

@@ -170,8 +170,9 @@ def remarks_on(
     found: Sequence[Row],
     search: VehicleSearch,
 ) -> list[str]:
-    """Sentences about what the data could not tell."""
-    said, still = list[str](), [row.key for row in found if not row.excited]
+    """Sentences about what was found in the logs, and what the data could not tell."""
+    said = [note for part in search.parts for note in part.windows.notes]
+    still = [row.key for row in found if not row.excited]
     if not scale_is_known(unknowns, search.estimate.q, information):
         said.append(
             "The masses and the thrust constants cannot be told apart: only their ratios are known. Weigh one part "
@@ -200,5 +201,10 @@ def remarks_on(
     if search.left_out:
         said.append(
             f"{search.left_out} windows are left out, which no vehicle explains: as under a push, a contact or a fault."
+        )
+    if crowded := [part.windows.source for part in search.parts if part.crowded]:
+        said.append(
+            f"{', '.join(crowded)}: no vehicle explains more than half of the windows, with those beside them: some of "
+            "those that count may be disturbed, too. Fly again, without pushes."
         )
     return said

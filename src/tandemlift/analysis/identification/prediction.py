@@ -25,7 +25,6 @@ from tandemlift.engines.driven_vehicle import (
     VehicleNumbers,
     driven_body,
     driven_step,
-    effect_floor,
     rotor_step,
 )
 from tandemlift.engines.vehicle_unknowns import DrivenNumbers, Unknowns
@@ -101,7 +100,7 @@ class Predictor:
     @property
     def models(self) -> Models:
         """The machine code for this geometry; made once in a process."""
-        vehicle, floor, wind = self.mission.vehicle, effect_floor(self.mission), self.mission.wind
+        vehicle, floor, wind = self.mission.vehicle, self.windows.floor, self.mission.wind
 
         def body(p: StepNumbers) -> DrivenBody:
             return driven_body(vehicle, floor, wind, p.vehicle, p.point, p.step)

@@ -31,6 +31,7 @@ from tandemlift.simulation.stepping import Stepper, fly_stepwise
 ENGINE = "log"
 RATES = IMU[1]
 ELSEWHERE = 0.5  # m: a log that begins farther from the mission's start is of another flight
+LATE = 1.0  # s: a stream that begins later than that after the mission's start begins late
 SPARSE = 0.8  # of the mission's rate: with fewer samples the estimators take one sample for several
 EXACT = {"errors": "none", **UNROUNDED}
 HOLDERS = ((("readings",), ()), (("sensing",), ("reading",)))  # of the last readings, in a flight's state
@@ -122,6 +123,13 @@ def check_vehicle(log: Log, mission: Mission) -> None:
     if mission.changes_in_flight:
         raise InputError(f"mission {name} changes in flight: leave out [[changes]] and person.recording")
     check_columns(log, mission.vehicle, name)
+    begins = {stream: float(log[stream].time[0]) for stream in (*MOTION, *sensed)}
+    if (begin := min(begins.values())) > LATE:
+        shift = f"log.aligned([*log], {-begin:.9g})"
+        raise InputError(f"{log.source}: begins at {begin:.9g} s, and mission {name} at 0 s: shift it by {shift}")
+    if late := [f"{stream} at {at:.4g} s" for stream, at in begins.items() if at > LATE]:
+        found = f"{', '.join(late)}: until then, the first sample is held"
+        warnings.warn(FlightWarning(f"{log.source}: begins late: {found}"), stacklevel=3)
     start = log[MOTION[0]].values[0]
     if np.linalg.norm(start - mission.initial.position) > ELSEWHERE:
         at, other = np.round(start, 3).tolist(), list(mission.initial.position)

@@ -6,6 +6,7 @@ clock, at most 2 ms. A sample between two steps is predicted by a straight line 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -13,9 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.analysis.logs.checks import check_log
+from tandemlift.analysis.logs.clocks import GAP
 from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, PUSH, SPEED_COMMANDS, Log, Stream
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY, Array
+from tandemlift.engines.driven_vehicle import effect_floor
 from tandemlift.missions import Mission, VehicleTable
 
 Places = NDArray[np.intp]
@@ -27,6 +30,8 @@ LENGTH = 1.0  # s of a window
 LONGEST_DELAY = 0.1  # s that a command may be late
 SETTLING = 0.3  # s from the first command until the rotors' speeds are known
 SPIKE = 15.0  # times the usual distance of a sample from the middle of its neighbours
+HELD = 0.75  # of the samples of a stream: if fewer are new, a table holds each of them for several rows
+BEYOND = 0.01  # of the commanded speeds, that may be above the largest
 CLEAR = 6.0  # radii of a rotor above where it stood: no contact, and a ground effect that its theory gives
 FEWEST = 8  # windows
 BEGINNING = 0.2  # of a window: its start must be known from there
@@ -61,6 +66,8 @@ class FlightWindows:
         commands: times (n,) [s] and commanded speeds (n, rotors) [rad/s].
         pushes: force [N] and moment [N m] of a logged push amid every step of the grid (count, 6), as `DrivenInputs`.
         samples: by stream.
+        floor: the height z [m], in the log, of a floor with ground effect; None without.
+        notes: what was found and changed, in sentences.
     """
 
     source: str
@@ -73,6 +80,8 @@ class FlightWindows:
     commands: Stream
     pushes: Array
     samples: dict[str, Samples]
+    floor: float | None = None
+    notes: tuple[str, ...] = ()
 
     def times(self) -> Array:
         """The time [s] at which each window begins."""
@@ -115,12 +124,14 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
     commands = _speeds(log, mission.vehicle)
     log.require(*IMU, MOTION[0], MOTION[2])
     check_log(log)
+    log, notes = _without_held(log)
     imu = log["measured_specific_force"].time
     interval = float(np.median(np.diff(imu))) if len(imu) > 1 else LONGEST_STEP
     step = interval / np.ceil(interval / LONGEST_STEP - 1e-9)
     begin = max(float(commands.time[0]), float(imu[0]))
     begin = float(imu[np.searchsorted(imu, begin - 1e-9)])
-    count = int((min(float(commands.time[-1]), log.end) - begin) / step)
+    ends = _ends(log, commands)
+    count = int((min(ends[name] for name in ends if name not in (*JOINTS, *PUSH)) - begin) / step)
     block = max(1, round(BLOCK / step))
     steps = round(length / (step * block)) * block
     lead = int(np.ceil((SETTLING + LONGEST_DELAY) / step))
@@ -130,20 +141,56 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
             f"{log.source}: commands and sensors overlap for {max(count, 0) * step:.3g} s; {FEWEST} windows "
             f"of {length:g} s are needed, after {SETTLING + LONGEST_DELAY:g} s for delay and lag of the rotors"
         )
+    notes += _early_ends(ends, log.source, length)
     cut = FlightWindows(log.source, step, begin, count, firsts, steps, block, commands, np.zeros((count, 6)), {})
     amid = begin + (np.arange(count) + 0.5) * step
     for name, place in zip(PUSH, (slice(0, 3), slice(3, 6)), strict=True):
         if name in log:
-            cut.pushes[:, place] = np.array([np.interp(amid, log[name].time, v) for v in log[name].values.T]).T
+            cut.pushes[:, place] = _between(amid, log[name])
     samples = {name: _samples(cut, log[name]) for name in (*IMU, *MOTION, *JOINTS) if name in log}
     cut = replace(cut, samples=samples)
-    usable = _in_flight(cut, log, mission.vehicle) & _have_starts(cut)
+    flies, rested = _in_flight(cut, log, mission.vehicle)
+    usable = flies & _have_starts(cut) & _commanded(cut)
     if usable.sum() < FEWEST:
         raise InputError(
-            f"{log.source}: flies clear of the floor, with motion and rates measured, in {usable.sum()} windows; "
-            f"{FEWEST} are needed"
+            f"{log.source}: flies clear of the floor, with motion and rates measured and no gap in the commands, in "
+            f"{usable.sum()} windows; {FEWEST} are needed"
         )
-    return cut.chosen(usable)
+    lowest = float(log[MOTION[0]].values[:, 2].min())
+    return replace(cut.chosen(usable), floor=_floor(mission, rested, lowest), notes=notes)
+
+
+def _without_held(log: Log) -> tuple[Log, tuple[str, ...]]:
+    """(A log without the samples that repeat the one before in a table that holds them, what was left out)."""
+    streams, held = dict(log), list[str]()
+    for name in (*IMU, *MOTION, *JOINTS):
+        if name in log:
+            time, values = log[name]
+            new = np.insert(np.any(np.diff(values, axis=0) != 0.0, axis=1), 0, True)
+            if new.mean() < HELD:
+                streams[name] = Stream(time[new], values[new])
+                held.append(f"{name} ({1.0 - new.mean():.0%})")
+    said = f"Samples of {', '.join(held)} repeat the one before and are left out: leave such cells of a table empty."
+    return replace(log, streams=streams), (f"{log.source}: {said}",) * bool(held)
+
+
+def _ends(log: Log, commands: Stream) -> dict[str, float]:
+    """The last time [s] of each stream that is used, by name."""
+    ends = {name: float(log[name].time[-1]) for name in (*IMU, *MOTION, *JOINTS, *PUSH) if name in log}
+    return ends | {"commands": float(commands.time[-1])}
+
+
+def _early_ends(ends: Mapping[str, float], source: str, length: float) -> tuple[str, ...]:
+    """A sentence about the streams that end a window or more before the last one."""
+    last = max(ends.values())
+    early = [f"{name} at {end:.4g} s" for name, end in ends.items() if end < last - length]
+    said = "later windows do without joints and force gauge; those without another stream are left out"
+    return (f"{source}: The log ends at {last:.4g} s, but {', '.join(early)}: {said}.",) * bool(early)
+
+
+def _between(times: Array, stream: Stream) -> Array:
+    """A stream at some times (n, width), by straight lines; 0 before it begins and after it ends."""
+    return np.array([np.interp(times, stream.time, v, left=0.0, right=0.0) for v in stream.values.T]).T
 
 
 def _speeds(log: Log, vehicle: VehicleTable) -> Stream:
@@ -156,9 +203,17 @@ def _speeds(log: Log, vehicle: VehicleTable) -> Stream:
     if len(time) > 1 and np.ptp(values, axis=0).min() == 0.0:
         rotor = int(np.argmin(np.ptp(values, axis=0)))
         raise InputError(f"{log.source}: {name}: column {rotor} is constant, {values[0, rotor]:g}: a dead channel")
+    most = np.array([q.max_speed for q in rotors])
     if name == COMMANDS:
         values = np.sqrt(np.maximum(values, 0.0) / [q.thrust_constant for q in rotors])
-    return Stream(time, np.clip(values, 0.0, [q.max_speed for q in rotors]))
+    elif (beyond := np.mean(values > most * (1.0 + 1e-6), axis=0)).max() > BEYOND:
+        rotor = int(np.argmax(beyond))
+        i, largest = rotor // 4, values[:, rotor // 4 * 4 :][:, :4].max()
+        raise InputError(
+            f"{log.source}: {name}: column {rotor} is above vehicle.quadrotors.{i}.max_speed = {most[rotor]:g} rad/s "
+            f"in {beyond[rotor]:.0%} of its samples; those of quadrotor {i} reach {largest:.5g} rad/s: set max_speed"
+        )
+    return Stream(time, np.clip(values, 0.0, most))
 
 
 def check_columns(log: Log, vehicle: VehicleTable, name_of_mission: str) -> None:
@@ -200,16 +255,42 @@ def _have_starts(cut: FlightWindows) -> Truths:
     return np.all([np.bincount(window, minlength=len(cut.first)) > 1 for window in own], axis=0)
 
 
-def _in_flight(cut: FlightWindows, log: Log, vehicle: VehicleTable) -> Truths:
-    """Whether each window flies: its rotors carry most of the weight, and it is clear of the floor."""
+def _commanded(cut: FlightWindows) -> Truths:
+    """Whether the commands have no gap in each window, and none in the time before it in which the rotors settle."""
+    time, begin = cut.commands.time, cut.times()
+    gap = np.flatnonzero(np.diff(time) > GAP * np.median(np.diff(time)))
+    next_gap = np.searchsorted(time[gap + 1], begin - (SETTLING + LONGEST_DELAY), side="right")
+    return np.asarray(np.append(time[gap], np.inf)[next_gap] >= begin + cut.length * cut.step)
+
+
+def _in_flight(cut: FlightWindows, log: Log, vehicle: VehicleTable) -> tuple[Truths, float | None]:
+    """(Whether each window flies: its rotors carry most of the weight, and it is clear of the floor; z at rest)."""
     quadrotors = vehicle.quadrotors
     mass = vehicle.payload.mass + sum(q.mass for q in quadrotors)
     constants = np.array([q.thrust_constant for q in quadrotors for _ in range(4)])
     time, position = log["measured_position"]
     thrust = np.array([np.interp(time, cut.commands.time, column) for column in cut.commands.values.T]).T ** 2
     resting = thrust @ constants < 0.5 * mass * GRAVITY
-    radius = max(q.rotor_radius for q in quadrotors)
-    lowest = position[resting, 2].min() + CLEAR * radius if resting.any() else -np.inf
-    flies = ~resting & (position[:, 2] > lowest)
+    rested = float(position[resting, 2].min()) if resting.any() else None
+    flies = ~resting & (position[:, 2] > (-np.inf if rested is None else rested + _clear(vehicle)))
     grid = cut.begin + (cut.first[:, None] + np.arange(0, cut.length, cut.block)) * cut.step
-    return np.interp(grid, time, flies.astype(float)).min(axis=1) > 0.5
+    return np.interp(grid, time, flies.astype(float)).min(axis=1) > 0.5, rested
+
+
+def _clear(vehicle: VehicleTable) -> float:
+    return CLEAR * max(q.rotor_radius for q in vehicle.quadrotors)
+
+
+def _floor(mission: Mission, rested: float | None, lowest: float) -> float | None:
+    """The height z [m] of a log's floor with ground effect: below where the vehicle rested, to 0.1 m.
+
+    Without a rest it is that of the mission, if the log's lowest z is clear of it, as a log's z may have any origin.
+    That is as near as `CLEAR` needs, and logs of one place share their machine code.
+    """
+    ground = effect_floor(mission)
+    if ground is None:
+        return None
+    floor, rests = ground
+    if rested is None:
+        return floor if lowest > rests + _clear(mission.vehicle) else None
+    return floor + round(rested - rests, 1)

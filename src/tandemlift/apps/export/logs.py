@@ -17,9 +17,10 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field, ValidationError
 
-from tandemlift.analysis.logs.clocks import synchronised
+from tandemlift.analysis.logs.clocks import GAP, synchronised
 from tandemlift.analysis.logs.log import MOTION, Log, Stream, log_of, stream_channel, without_repeats
 from tandemlift.apps.export.coordinate_frames import to_world
 from tandemlift.apps.export.messages import SECOND
@@ -49,7 +50,7 @@ class Way(Table):
     Attributes:
         columns: their names, in the order of the stream's.
         topic: of a bag or a ULog; of several, such as one for each joint, the columns come one topic after another, and
-            the samples of all are interpolated at the times of the first.
+            the samples of all are interpolated at the times of the first, as far as each has some without a gap.
         unit: of the columns: that of the stream, or one of `UNITS` for it; "1" stands for that of the stream.
         scale: factor, or one for each column, beside that of the unit: signs for other axes.
         time: the column of stamps; of a list, the first that is there.
@@ -178,12 +179,23 @@ def _stream(place: str, way: Way, tables: LogTables) -> Stream | None:
     ]
     if not parts or not all(len(part.time) for part in parts):
         return None
-    time, *_ = (part.time for part in parts)
+    time = parts[0].time
+    time = time[np.all([_heard(part.time, time) for part in parts], axis=0)]
+    if not len(time):
+        return None
     values = np.hstack([np.array([np.interp(time, part.time, v) for v in part.values.T]).T for part in parts])
     if isinstance(way.scale, tuple) and len(way.scale) * len(parts) != values.shape[1]:
         raise InputError(f"{place}: scale has {len(way.scale)} numbers for {values.shape[1] // len(parts)} columns")
     scale = np.array(way.scale * len(parts) if isinstance(way.scale, tuple) else way.scale)
     return Stream(time, values * scale * _factor(way.unit))
+
+
+def _heard(own: Array, times: Array) -> NDArray[np.bool_]:
+    """Whether there are stamps on both sides of some times [s], or at them, without a gap between the two."""
+    before, after = np.searchsorted(own, times, side="right") - 1, np.searchsorted(own, times)
+    apart = own[np.minimum(after, len(own) - 1)] - own[np.maximum(before, 0)]
+    usual = float(np.median(np.diff(own))) if len(own) > 1 else 0.0
+    return np.asarray((before >= 0) & (after < len(own)) & (apart <= GAP * usual))
 
 
 def _part(place: str, way: Way, tables: LogTables, topic: str) -> Stream:
@@ -236,7 +248,13 @@ def csv_table(path: Path) -> LogTables:
     if not rows:
         raise InputError(f"{path}: has no line of numbers below the line of names")
     table = dict(zip(names, np.array(rows).reshape(len(rows), len(names)).T, strict=True))
-    return LogTables([""], lambda _: table, lambda _, name: table[name])
+
+    def column(_: str, name: str) -> Array:
+        if names.count(name) > 1:
+            raise InputError(f"{path}: has {names.count(name)} columns {name}: one that is read must have its own name")
+        return table[name]
+
+    return LogTables([""], lambda _: table, column)
 
 
 def _numbers(place: str, names: list[str], cells: list[str]) -> list[float]:

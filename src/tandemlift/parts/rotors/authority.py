@@ -17,7 +17,7 @@ from tandemlift.parts.rotors.hover import CONTROL, HoverFacts
 from tandemlift.parts.rotors.hover_loads import ALWAYS, VehicleLoads
 
 AXES = ("roll", "pitch", "yaw")
-PUSH = 3.0  # N, of a hand that is not gentle
+PUSH, PUSHED = 3.0, 3.5  # N, of a hand that is not gentle with a vehicle of that many kg; it scales with the mass
 CLOCKED = 0.95  # of the largest thrust that a flight with scheduled guidance may need
 
 
@@ -110,7 +110,8 @@ def moment_checks(hover: HoverFacts, loads: Sequence[VehicleLoads]) -> Iterator[
 
 
 def push_checks(hover: HoverFacts) -> Iterator[CheckResult]:
-    """Compare a push of a few newtons with the one at which a rotor saturates: a warning to a hand, of no flight."""
+    """Compare a push in proportion to the mass with the one at which a rotor saturates: a warning to a hand."""
+    push = PUSH * hover.vehicle.mass / PUSHED
     x, y, _ = max(hover.vehicle.lever_arms, key=lambda arm: math.hypot(arm[0], arm[1]))
     far = math.hypot(x, y)
     up = np.array([0.0, 0.0, 1.0])
@@ -122,10 +123,10 @@ def push_checks(hover: HoverFacts) -> Iterator[CheckResult]:
     for subject, (place, directions) in ways.items():
         limit = min(hover.largest_push(place, way) for way in directions)
         text = (
-            f"a push of {PUSH:g} N {subject} of the vehicle saturates a rotor, one of {limit:.2g} N does not yet: then "
-            "it follows late, or turns away; push gently there, or nearer the middle"
+            f"a push of {push:.3g} N {subject} of the vehicle saturates a rotor, one of {limit:.2g} N does not yet: "
+            "then it follows late, or turns away; push gently there, or nearer the middle"
         )
-        result = judged("push", PUSH, limit, "N", text, subject=subject)
+        result = judged("push", push, limit, "N", text, subject=subject)
         yield result._replace(verdict=CLOSE) if result.verdict == FAILS else result
 
 
