@@ -5,6 +5,10 @@
 
 #include "mission_flight.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Numbers of the mission, each by its key: unit, meaning, bounds. */
 typedef struct {
 /*@MEMBERS@*/
@@ -22,5 +26,9 @@ typedef struct {
 /* 0, or 1 and the number of the first condition that other code would need:
  * /*@GUARDS@*/ */
 int mission_flight_prepare(const mission_FlightNumbers *numbers, mission_Prepared *prepared);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

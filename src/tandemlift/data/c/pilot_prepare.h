@@ -5,6 +5,10 @@
 
 #include "mission_pilot.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Numbers of the mission, each by its key: unit, meaning, bounds. */
 typedef struct {
 /*@MEMBERS@*/
@@ -15,5 +19,9 @@ extern const mission_PilotNumbers mission_pilot_numbers; /* as in the mission */
 /* The pilot before its first sample. 0, or 1 and the number of the first condition that other code would need:
  * /*@GUARDS@*/ */
 int mission_pilot_prepare(const mission_PilotNumbers *numbers, mission_PilotData *prepared);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif
