@@ -74,7 +74,9 @@ def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
     file, of_pilot = source_file(mission, single), trace_assembly(mission, pilot_at_start)
     of_flight = trace_assembly(mission)
     pilot = PilotFile(file.anew(), with_values(of_pilot.assembled, of_pilot.graph))
-    flight = FlightFile(file.anew(), FlightPlan(mission, interactive=True))
+    of_both = file.anew()
+    of_both.unit.structs.adopt(pilot.file.public(pilot.public))  # one source may include both headers
+    flight = FlightFile(of_both, FlightPlan(mission, interactive=True))
     pilot_prepare = PrepareFile(file.anew(), of_pilot, "pilot")
     flight_prepare = PrepareFile(file.anew(), of_flight, "flight")
     facts = facts_of(mission, {*of_pilot.keys, *of_flight.keys})

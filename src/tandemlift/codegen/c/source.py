@@ -178,7 +178,7 @@ class SourceFile:
 
     def typedefs(self, roots: list[Struct], describe: Describe) -> str:
         """The definitions of public structs with comments, with the mission's name before theirs."""
-        return "\n".join(s.definition(self.prefix, self.real, describe) for s in self.public(roots))
+        return "\n".join(s.guarded(self.prefix, self.real, describe) for s in self.public(roots))
 
     def source(self, name: str, roots: list[Struct], has: Iterable[str] = (), used: str = "", **words: str) -> str:
         """A source: short names for public structs, the other structs, the unit's functions, and a text behind them.

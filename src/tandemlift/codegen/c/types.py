@@ -48,6 +48,10 @@ class Names:
         """Whether a name is taken."""
         return name in RESERVED or name in self._taken
 
+    def take(self, names: Iterable[str]) -> None:
+        """Take names as they are."""
+        self._taken |= set(names)
+
     def new(self, wish: str) -> str:
         """The name that is wished for, with a number behind it if it is taken."""
         plain = identifier(wish)
@@ -91,6 +95,11 @@ class Struct(NamedTuple):
         lines = [f"    {type_name(m.kind, real, prefix)} {m.name};{self._note(m, describe)}" for m in self.members]
         about = describe(self.source, "")
         return "\n".join([*([about] if about else []), "typedef struct {", *lines, f"}} {prefix}{self.name};"])
+
+    def guarded(self, prefix: str, real: str, describe: Describe) -> str:
+        """The typedef in a header, of which a source may include several; C99 has no typedef twice."""
+        guard = f"{prefix.upper()}TYPE_{self.name}"
+        return f"#ifndef {guard}\n#define {guard}\n{self.definition(prefix, real, describe)}\n#endif"
 
     def _note(self, member: Member, describe: Describe) -> str:
         """The comment behind a member: its own, or that of its type."""
@@ -140,6 +149,11 @@ class Structs:
     def __init__(self, names: Names) -> None:
         self.names, self.all = names, dict[Any, Struct]()
         self._known = dict[int, tuple[Any, Struct]]()  # by id, which a value keeps as long as it is here
+
+    def adopt(self, structs: Iterable[Struct]) -> None:
+        """Give types the names that they have in another header of the mission."""
+        self.all |= {(struct.source, struct.members): struct for struct in structs}
+        self.names.take(struct.name for struct in structs)
 
     def of(self, value: Any) -> Any:
         """The type of a value: a `Struct`, or the letter of a number's type."""
