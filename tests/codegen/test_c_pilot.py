@@ -29,17 +29,19 @@ class PilotInC:
         subprocess.run(["gcc", *STRICT, "-O0", "-shared", "-fPIC", source, "-o", library, "-lm"], check=True)
         self.real = np.float32 if single else np.float64
         name, self.library = source.name.removesuffix("_pilot.c"), ctypes.CDLL(str(library))
+        self.name = name
         self.numbers = np.zeros(leaves(pilot_at_start(mission)), self.real)
         self.input = np.zeros(leaves(INPUT), self.real)
         self.thrusts = np.zeros(4 * len(mission.vehicle.quadrotors), self.real)
         self._step = getattr(self.library, f"{name}_pilot_step")
+        self._step.restype = ctypes.c_bool
         self._places = [ctypes.c_void_p(a.ctypes.data) for a in (self.numbers, self.input, self.thrusts)]
         getattr(self.library, f"{name}_pilot_start")(self._places[0])
 
     def step(self, measurement):
         """Thrusts [N] for a measurement, as of `tl.Pilot`."""
         self.input[:16], self.input[22] = measurement, 1.0
-        self._step(*self._places)
+        self.takes = self._step(*self._places)
         return self.thrusts
 
 
@@ -75,6 +77,49 @@ def test_its_thrusts_have_the_bits_of_the_native_pilot(name, tmp_path):
     found = np.array([(in_c.step(row).copy(), native.step(row).copy()) for row in rows])
     assert same(found[:, 0], found[:, 1])
     assert len(np.unique(found[:, 1])) > 1000
+
+
+@pytest.mark.parametrize("wrong", [np.nan, np.inf, -np.inf])
+def test_a_number_that_is_not_finite_changes_nothing_as_in_the_native_pilot(wrong, tmp_path):
+    need("gcc")
+    mission = unfused(tl.load_mission("hover"))
+    in_c, native, still = PilotInC(mission, tmp_path, code_texts(mission)), tl.Pilot(mission), np.eye(16)[6]
+    for _ in range(100):
+        in_c.step(still)
+        native.step(still)
+    assert in_c.takes
+    for at in range(16):
+        numbers, thrusts, bad = in_c.numbers.copy(), in_c.thrusts.copy(), still.copy()
+        bad[at] = wrong
+        in_c.step(bad)
+        assert not in_c.takes
+        assert same(in_c.numbers, numbers)
+        assert same(in_c.thrusts, thrusts)
+        with pytest.raises(tl.InputError, match="must be a finite number without supervision"):
+            native.step(bad)
+    in_c.input[16] = wrong  # the moment
+    in_c.step(still)
+    assert not in_c.takes
+    in_c.input[16] = 0.0
+    for _ in range(100):
+        assert same(in_c.step(still), native.step(still))
+        assert in_c.takes
+
+
+def test_with_supervision_a_number_that_is_not_finite_stays_out_of_the_memory(tmp_path):
+    need("gcc")
+    mission = unfused(tl.load_mission("iris", {"pilot.guidance": "interactive", "supervision.model": "on"}))
+    texts = code_texts(mission)
+    in_c, still = PilotInC(mission, tmp_path, texts), np.eye(16)[6]
+    for at in range(16):
+        bad = still.copy()
+        bad[at] = np.nan
+        in_c.step(still)
+        in_c.step(bad)
+        assert in_c.takes
+        assert np.isfinite(in_c.step(still)).all()
+    assert np.isfinite(in_c.numbers).all()
+    assert "supervision detects numbers that are not finite" in texts[f"{in_c.name}_pilot.h"]
 
 
 def test_the_self_tests_pass_and_fail_when_a_bit_is_other(tmp_path):

@@ -5,12 +5,14 @@ The solver is called under a branch; around the laws of its search stands a loop
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 from tandemlift.codegen.c.laws import write_functions
 from tandemlift.codegen.c.source import SourceFile, Unit
 from tandemlift.codegen.c.statements import Statements
 from tandemlift.codegen.c.text import FunctionHead, function
+from tandemlift.codegen.c.types import leaf_paths
 from tandemlift.codegen.number_facts import described
 from tandemlift.core.types import leaves, rebuilt
 from tandemlift.core.vector import each
@@ -18,6 +20,7 @@ from tandemlift.simulation.pilot_api import INPUT
 from tandemlift.simulation.preparation.limit_solver import LimitProblem, TracedSolver
 from tandemlift.simulation.preparation.pilot_sampling import PilotData, PilotDataState, PilotSampler
 
+VECTORS = 6  # that are measured: position, velocity, attitude, rates, force, moment
 SAMPLE = "/* A sample of the pilot (tandemlift.simulation.preparation.pilot_sampling). */\n"
 
 
@@ -41,14 +44,22 @@ class PilotFile:
         """The text of the header."""
         types = self.file.typedefs(self.public, described)
         types = types.replace("    float samples;", "    uint32_t samples;")  # a float counts to 2²⁴ only
-        return self.file.filled("pilot.h", ROTORS=str(len(self.thrusts)), TYPES=types)
+        return self.file.filled("pilot.h", self._has, ROTORS=str(len(self.thrusts)), TYPES=types)
 
     def source(self) -> str:
         """The text of the source."""
         unit = self.file.unit
         self._write_sample()
         unit.texts.append(self.file.constant(self.start, "START"))
-        return self.file.source("pilot.c", self.public, SET=unit.type_of(self.thrusts))
+        vectors = itertools.groupby((path for path, _ in leaf_paths(INPUT)), lambda path: path.rpartition(".")[0])
+        zeros = [" + ".join(f"0 * input->{path[1:]}" for path in paths) for _, paths in vectors][:VECTORS]
+        words = {"SET": unit.type_of(self.thrusts), "ZERO": "\n        + ".join(zeros)}
+        return self.file.source("pilot.c", self.public, self._has, **words)
+
+    @property
+    def _has(self) -> set[str]:
+        """The blocks of the texts that this pilot needs."""
+        return {"refuses" if self.sampler.refuses else "supervised"}
 
     def _write_sample(self) -> None:
         unit, x = self.file.unit, self.sampler
