@@ -1,9 +1,12 @@
 """The headers of a mission in C: one source includes them all, in C99 and in C++."""
 
+import re
 import subprocess
 from typing import Any, NamedTuple
 
+import pytest
 from c_flights import STRICT
+from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.codegen.c.types import Names, Structs
@@ -59,3 +62,42 @@ def test_a_type_of_another_layout_has_a_name_that_the_other_header_does_not_have
     assert second.of(Pair(3.0, Pair(1.0, 4.0))) == outer
     assert second.of(Pair(5.0, 6.0)) == inner
     assert (inner.name, outer.name) == ("Pair", "Pair_2")
+
+
+LAWS = "sample evaluate time_of sum_pushes advance_flight asinh copysign erfc strlen main solve elementary_exp cosf"
+CLASSES = "Flight Inputs Prepared PilotNumbers FlightNumbers START Sample State PilotMemory PUSHES"
+FIELDS = "NAN asm alignas nullptr constexpr M_PI position"
+
+
+def controller_with_names_of_c(path):
+    """A controller whose laws, classes and fields have names that the C around them has, too."""
+    text = (ROOT / "docs" / "reference" / "listings" / "my_pd.py").read_text("utf-8")
+    laws = "\n\n".join(f"@law\ndef {name}(x):\n    return x * 2.0" for name in LAWS.split())
+    fields = "\n".join(f"    {field}: Number" for field in FIELDS.split())
+    classes = "\n\n".join(f"class {name}(NamedTuple):\n{fields}" for name in CLASSES.split())
+    text = text.replace("class Gains(", f"{laws}\n\n\n{classes}\n\n\nclass Gains(")
+    members = "\n".join(f"    own_{name.lower()}: {name}" for name in CLASSES.split())
+    text = text.replace("    mass: Number  # kg\n", f"    mass: Number  # kg\n{members}\n")
+    chain = "(".join(LAWS.split()) + "(k.own_state.NAN" + ")" * len(LAWS.split())
+    text = text.replace("    force = (", f"    force = UP * {chain} + (")
+    values = ", ".join("0.0" for _ in FIELDS.split())
+    given = "".join(f"        own_{name.lower()}={name}({values}),\n" for name in CLASSES.split())
+    path.write_text(text.replace("        mass=vehicle.mass,\n", f"        mass=vehicle.mass,\n{given}"), "utf-8")
+    return tl.load_controller(path)
+
+
+@pytest.mark.parametrize("single", [False, True])
+def test_names_of_a_controller_are_never_those_of_the_code_around_it(single, tmp_path):
+    need("gcc", "g++")
+    mission = tl.load_mission("hover", controller=controller_with_names_of_c(tmp_path / "own_pd.py"))
+    texts = code_texts(mission, single)
+    for source in [f for f in written(texts, tmp_path / "c") if f.suffix == ".c"]:
+        subprocess.run(["gcc", *STRICT, "-fsyntax-only", source], check=True)
+    include = "#include <cmath>\n#include <cstdio>\n" + USE.format(p="hover")
+    command = ["g++", "-std=c++20", *STRICT[1:], "-fsyntax-only", f"-I{tmp_path / 'c'}", "-x", "c++", "-"]
+    subprocess.run(command, input=include, text=True, check=True)
+    bodies = {name: body for body, name in re.findall(r"struct \{\n([^}]+)\} (\w+);", texts["hover_flight.h"])}
+    assert "world: position of the centre of mass" in bodies["hover_State"]
+    own = re.findall(r"^ +\w+ (\w+);$", bodies["hover_State_2"], re.MULTILINE)  # without comments of other classes
+    assert own == ["NAN_", "asm_", "alignas_", "nullptr_", "constexpr_", "M_PI_", "position"]
+    assert "hover_Vec3 position;" in bodies["hover_Sample"]

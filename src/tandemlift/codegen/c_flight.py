@@ -44,6 +44,7 @@ class FlightFile:
     def __init__(self, file: SourceFile, plan: FlightPlan, step: Callable[..., TracedStep] = TracedStep) -> None:
         self.file, self.plan, unit = file, plan, file.unit
         self.templates, self.delayed = templates_from(plan.model, plan.given), plan.loop_code.delayed
+        unit.structs.keep((plan.model, plan.given, self.templates.sample))
         for value in (ZERO, *ROWS, plan.model, plan.given, self.templates.sample):  # these get the plain names
             unit.structs.of(value)
         with unit.laws.recording():

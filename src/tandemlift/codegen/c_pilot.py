@@ -34,6 +34,7 @@ class PilotFile:
 
     def __init__(self, file: SourceFile, start: PilotData) -> None:
         self.file, self.start, unit = file, start, file.unit
+        unit.structs.keep((start, INPUT))
         self.public = [unit.structs.of(start), unit.structs.of(INPUT)]
         with unit.laws.recording():
             self.sampler = PilotSampler(start, INPUT, 1, fuses=False, rolls=False)
@@ -108,13 +109,13 @@ static {state} {name}(const {problem} *problem, const {state} *held)
 """
 WIDENED = """/* The same in single precision. The search is in doubles: where part of a wrench is out of reach,
  * its sums cancel all digits of a float. */
-static AllocationState solve(const BoundedProblem *problem, const AllocationState *held)
+static {result} solve(const {given} *problem, const {result} *held)
 {{
     float given[{size}], before[{held}];
     double numbers[{size}], start[{held}];
     {problem} exact;
     {state} found;
-    AllocationState result;
+    {result} result;
     memcpy(given, problem, sizeof given);
     memcpy(before, held, sizeof before);
     for (int i = 0; i < {size}; i++) {{
@@ -167,4 +168,5 @@ def write_solver(file_unit: Unit, solver: TracedSolver) -> None:
     unit.texts.append(SOLVE.format(**words))
     if unit is not file_unit:
         file_unit.take(unit)
+        words |= {"given": file_unit.type_of(problem), "result": file_unit.type_of(held)}
         file_unit.texts.append(WIDENED.format(**words, size=leaves(problem), held=leaves(held)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from functools import cache
 from importlib.resources import files
 from typing import Any
 
@@ -16,6 +17,7 @@ from tandemlift.codegen.c.types import (
     Struct,
     Structs,
     identifier,
+    is_own,
     parts_of,
     signature_of,
     type_name,
@@ -25,6 +27,9 @@ from tandemlift.compiler.tracer.structured import Laws, TracedLaw, calls_in, is_
 from tandemlift.core.files import __version__
 
 TEXTS = files("tandemlift") / "data" / "c"
+PARTS = ("pilot", "flight", "pilot_prepare", "flight_prepare")
+AROUND = ("helpers.c", "single.c", *(f"{part}.{end}" for part in PARTS for end in "ch"))  # texts of the files with laws
+GENERATED = frozenset(["exact_solve", "solve", "GUSTS", "LEGS", "PUSHES", "WALLS"])  # further names at file scope
 BLOCK = re.compile(r"^ *//if (\w+)\n(.*?)^ *//end \1\n", re.MULTILINE | re.DOTALL)
 
 
@@ -46,7 +51,7 @@ class Unit:
     def __init__(self, real: str, prefix: str = "", names: Names | None = None) -> None:
         self.real, self.prefix, self.laws = real, prefix, Laws()
         self.names = Names() if names is None else names
-        self.structs, self.texts, self.written = Structs(self.names), list[str](), set[int]()
+        self.structs, self.texts, self.written = Structs(self.names, text_words()), list[str](), set[int]()
         self._signatures: dict[int, Signature] = {}
         self._locals: dict[int, Names] = {}
 
@@ -69,7 +74,8 @@ class Unit:
         if number not in self._signatures:
             law = self.laws.all[number]
             calls = [self.signature(n).name for n in law.calls]
-            name = self.names.new(self.prefix + law_word(law.law))
+            kept = () if is_own(law.law) else text_words()
+            name = self.names.new(self.prefix + law_word(law.law), kept)
             self._locals[number] = Names(given=calls)
             self._signatures[number] = signature_of(law, name, self.structs, self._locals[number])
         return self._signatures[number]
@@ -114,6 +120,14 @@ class Unit:
     def is_replaced(self, number: int) -> bool:
         """Whether a law's function is that of `data/c/single.c`: the polynomials are made for doubles."""
         return self.real == "float" and self.laws.all[number].law.__module__.endswith(".elementary")
+
+
+@cache
+def text_words() -> frozenset[str]:
+    """All words of the code around laws: what is defined there is no name for a user's law or class."""
+    texts = "\n".join((TEXTS / name).read_text("utf-8") for name in AROUND)
+    code = re.sub(r"/\*.*?\*/", " ", re.sub(r"/\*@\w+@\*/", " ", texts), flags=re.DOTALL)
+    return GENERATED | set(re.findall(r"\b(?:mission_)?([A-Za-z]\w*)", code))
 
 
 def law_word(law: Any) -> str:

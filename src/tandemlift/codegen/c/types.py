@@ -7,7 +7,7 @@ import inspect
 import itertools
 import re
 import textwrap
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Container, Iterable, Iterator
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -17,14 +17,25 @@ from tandemlift.core.vector import is_set
 
 KEYWORDS = """auto bool break case char const continue default do double else enum extern false float for goto if inline
 int long register restrict return short signed sizeof static struct switch true typedef union unsigned void volatile
-while and catch class delete explicit export friend mutable namespace new not operator or private protected public
-template this throw try typename using virtual xor"""
-LIBRARY = """abs acos asin atan atan2 cbrt ceil cos cosh div erf exp exp2 expm1 fabs fdim floor fma fmax fmin fmod frexp
-gamma hypot isfinite isinf isnan j0 j1 jn ldexp lgamma log log10 log1p log2 lrint lround memcpy memset modf nan
-nearbyint pow remainder rint round scalbn signbit sin sinh sqrt tan tanh tgamma trunc y0 y1 yn size_t int32_t int64_t
-uint32_t uint64_t to_integer bits_of number_of shifted_right"""
-NO_MEMBER = frozenset(KEYWORDS.split())
+while alignas alignof and and_eq asm bitand bitor catch char16_t char32_t char8_t class co_await co_return co_yield
+compl concept const_cast consteval constexpr constinit decltype delete dynamic_cast explicit export friend mutable
+namespace new noexcept not not_eq nullptr operator or or_eq private protected public reinterpret_cast requires
+static_assert static_cast template this thread_local throw try typeid typename typeof using virtual wchar_t xor xor_eq
+"""
+MACROS = """EOF HUGE_VAL HUGE_VALF HUGE_VALL INFINITY NAN NULL assert errno linux math_errhandling stderr stdin stdout
+unix FP_INFINITE FP_NAN FP_NORMAL FP_SUBNORMAL FP_ZERO MATH_ERREXCEPT MATH_ERRNO M_1_PI M_2_PI M_2_SQRTPI M_E M_LN10
+M_LN2 M_LOG10E M_LOG2E M_PI M_PI_2 M_PI_4 M_SQRT1_2 M_SQRT2"""
+MATH = """acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh erf erfc exp exp2 expm1 fabs fdim floor fma
+fmax fmin fmod frexp hypot ilogb ldexp lgamma llrint llround log log10 log1p log2 logb lrint lround modf nan nearbyint
+nextafter nexttoward pow remainder remquo rint round scalbln scalbn sin sinh sqrt tan tanh tgamma trunc"""
+LIBRARY = """abort abs cabs carg calloc cimag conj cpow creal div exit fprintf free gamma isfinite isgreater isinf
+isless isnan isnormal j0 j1 jn labs ldiv llabs main malloc memchr memcmp memcpy memmove memset printf putchar puts
+realloc scanf signbit sprintf strcat strchr strcmp strcoll strcpy strcspn strerror strlen strncat strncmp strncpy
+strpbrk strrchr strspn strstr strtok strxfrm y0 y1 yn size_t int32_t int64_t uint32_t uint64_t to_integer bits_of
+number_of shifted_right"""
+NO_MEMBER = frozenset([*KEYWORDS.split(), *MACROS.split()])
 RESERVED = NO_MEMBER | {"shared"} | set(LIBRARY.split())  # `shared`: of the parts of a function (`text`)
+RESERVED |= {name + kind for name in MATH.split() for kind in ("", "f", "l")}
 
 
 @cache
@@ -52,10 +63,10 @@ class Names:
         """Take names as they are."""
         self._taken |= set(names)
 
-    def new(self, wish: str) -> str:
-        """The name that is wished for, with a number behind it if it is taken."""
+    def new(self, wish: str, kept: Container[str] = ()) -> str:
+        """The name that is wished for, with a number behind it if it is taken or `kept` for another."""
         plain = identifier(wish)
-        found = plain if not self.knows(plain) else next(n for n in _numbered(plain) if not self.knows(n))
+        found = next(n for n in itertools.chain([plain], _numbered(plain)) if not self.knows(n) and n not in kept)
         self._taken.add(found)
         return found
 
@@ -107,6 +118,11 @@ class Struct(NamedTuple):
         return f" /* {text} */" if text else ""
 
 
+def is_own(source: Any) -> bool:
+    """Whether a class or a law is of this package, and not of a user."""
+    return str(source.__module__).startswith("tandemlift.")
+
+
 def type_name(kind: Any, real: str, prefix: str = "") -> str:
     """The name of a type in C."""
     if isinstance(kind, Struct):
@@ -144,11 +160,23 @@ def leaf_paths(value: Any) -> Iterator[tuple[str, Any]]:
 
 
 class Structs:
-    """The structs of a file, made on first use; those that a struct contains precede it."""
+    """The structs of a file, made on first use; those that a struct contains precede it.
 
-    def __init__(self, names: Names) -> None:
-        self.names, self.all = names, dict[Any, Struct]()
+    Args:
+        names: at file scope.
+        kept: names that no class of a user gets.
+    """
+
+    def __init__(self, names: Names, kept: Iterable[str] = ()) -> None:
+        self.names, self.kept, self.all = names, set(kept), dict[Any, Struct]()
         self._known = dict[int, tuple[Any, Struct]]()  # by id, which a value keeps as long as it is here
+
+    def keep(self, value: Any) -> None:
+        """Keep the names of the package's own classes in a value, so that a user's do not get them before."""
+        if is_nested(value):
+            self.kept |= {type(value).__name__} if is_own(type(value)) else set()
+            for _, part in parts_of(value):
+                self.keep(part)
 
     def adopt(self, structs: Iterable[Struct]) -> None:
         """Give types the names that they have in another header of the mission."""
@@ -164,7 +192,8 @@ class Structs:
         members = tuple(Member(access, self.of(part)) for access, part in parts_of(value))
         key = type(value), members
         if key not in self.all:
-            name = self.names.new(type(value).__name__ if hasattr(value, "_fields") else "Items")
+            wish = type(value).__name__ if hasattr(value, "_fields") else "Items"
+            name = self.names.new(wish, () if is_own(type(value)) else self.kept)
             self.all[key] = Struct(name, members, len(list(numbers_in(value))), is_set(value), type(value))
         self._known[id(value)] = value, self.all[key]
         return self.all[key]
