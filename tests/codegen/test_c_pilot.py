@@ -10,7 +10,7 @@ import pytest
 from c_flights import STRICT, same, unfused
 
 import tandemlift as tl
-from tandemlift.codegen.c_package import MARK, code_texts, write_c, written
+from tandemlift.codegen.c_package import MARK, code_texts, pilot_selftest, pilot_vectors, source_file, write_c, written
 from tandemlift.core.files import check_own
 from tandemlift.core.types import leaves
 from tandemlift.simulation.pilot_api import INPUT, pilot_at_start
@@ -135,6 +135,17 @@ def test_the_self_tests_pass_and_fail_when_a_bit_is_other(tmp_path):
         digit = [place.end() - 1 for place in re.finditer(r"\d\.\d{3,}", data)][-1]
         source.write_text(text[:digit] + str((int(text[digit]) + 5) % 10) + text[digit + 1 :])
         assert subprocess.run([build(source, "-O0")], check=False, capture_output=True).returncode == 1
+
+
+def test_a_pilot_in_single_precision_passes_where_the_thrusts_of_its_flight_are_constant(tmp_path):
+    need("gcc")
+    mission = tl.load_mission("hover", {"mission.duration": 0.1, "mission.fma": False})
+    vectors = pilot_vectors(mission)
+    assert np.ptp([thrusts for *_, thrusts in vectors]) == 0.0
+    text = pilot_selftest(source_file(mission, True), vectors)
+    written(code_texts(mission, True) | {"hover_pilot_selftest.c": text}, tmp_path)
+    run = subprocess.run([build(tmp_path / "hover_pilot_selftest.c")], check=False, capture_output=True)
+    assert run.stdout.startswith(b"ok"), run.stdout
 
 
 @pytest.mark.parametrize("name", ["CMakeLists.txt", "README.md"])
