@@ -199,14 +199,17 @@ def test_steps_off_the_sample_time_are_refused_by_name(fmi, fmu):
         assert instance.begin() == OK
         return instance
 
-    exact, multiple, rounded = begun(), begun(), begun()
+    exact, multiple, rounded, summed = begun(), begun(), begun(), begun()
     for k in range(10):
         assert exact.step(2.0 + k * 0.001, 0.001) == OK
     assert multiple.step(2.0, 0.01) == OK
     assert rounded.step(2.0, 0.01 * (1.0 + 1e-8)) == OK
+    for k in range(10):
+        assert summed.step(2.0 + k * 0.001 + (-1) ** k * 0.00045, 0.001) == OK  # as where steps are summed for days
+    assert same(exact.number("velocity", 3), summed.number("velocity", 3))
     assert same(exact.number("velocity", 3), multiple.number("velocity", 3))
     assert same(exact.number("velocity", 3), rounded.number("velocity", 3))
-    for time, size in ((2.0, 0.0015), (2.0, 0.0), (2.0, -0.001), (2.0, np.nan), (2.001, 0.001), (2.0, 0.00100001)):
+    for time, size in ((2.0, 0.0015), (2.0, 0.0), (2.0, -0.001), (2.0, np.nan), (2.001, 0.001), (2.0006, 0.001), (2.0, 0.00100001)):
         instance = begun()
         assert instance.step(time, size) == ERROR
         assert instance.said[-1].startswith("step-off-sample-time: ")

@@ -245,7 +245,7 @@ FmuResult fmu_step(FmuInstance *instance, double time, double size)
             FMU_STEP, FMU_STEP_TOLERANCE);
         return failed(instance);
     }
-    if (!(fabs(here - (double)model->steps) <= FMU_TIME_TOLERANCE)) {
+    if (!(fabs(here - (double)model->steps) < FMU_TIME_TOLERANCE)) {
         fmu_report(instance, true,
             "step-off-sample-time: a step from %.17g s, but %.17g s are reached (within %g of mission.step = %.17g s)",
             time, model->time, FMU_TIME_TOLERANCE, FMU_STEP);

@@ -17,7 +17,7 @@
 #define FMU_TOKEN "/*@TOKEN@*/" /* of this description and these sources */
 #define FMU_STEP /*@DOUBLE_STEP@*/ /* s, from one sample to the next: mission.step */
 #define FMU_STEP_TOLERANCE 1e-6 /* of FMU_STEP: by so much the length of a step may be off a multiple of it */
-#define FMU_TIME_TOLERANCE 1e-3 /* of FMU_STEP: by so much the time of a step may be off the samples */
+#define FMU_TIME_TOLERANCE 0.5 /* of FMU_STEP: nearer to this sample than to others; sums of steps drift */
 #define FMU_PARAMETERS /*@PARAMETERS@*/
 #define FMU_INPUTS /*@INPUTS@*/
 #define FMU_OUTPUTS /*@OUTPUTS@*/
