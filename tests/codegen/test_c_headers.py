@@ -86,6 +86,17 @@ def controller_with_names_of_c(path):
     return tl.load_controller(path)
 
 
+def test_another_law_with_the_same_keys_has_another_hash(tmp_path):
+    found, path = [], tmp_path / "my_pd.py"
+    text = (ROOT / "docs" / "reference" / "listings" / "my_pd.py").read_text("utf-8")
+    for factor in ("k.damping", "k.damping * 0.5"):
+        path.write_text(text.replace("de * k.damping", f"de * {factor}"), "utf-8")
+        texts = code_texts(tl.load_mission("hover", controller=tl.load_controller(path)))
+        found.append(re.search(r"the hash ([0-9a-f]{16});", texts["hover_pilot.h"])[1])
+        assert all(found[-1] in texts[name] for name in texts if name.endswith("t.h") or name == "README.md")
+    assert found[0] != found[1]
+
+
 @pytest.mark.parametrize("single", [False, True])
 def test_names_of_a_controller_are_never_those_of_the_code_around_it(single, tmp_path):
     need("gcc", "g++")

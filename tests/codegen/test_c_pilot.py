@@ -195,6 +195,7 @@ def test_its_functions_are_short_allocate_nothing_and_name_their_laws():
 
 def test_its_headers_say_version_hash_units_frames_and_meanings():
     texts, other = (code_texts(tl.load_mission("paper", changes)) for changes in ({}, {"mission.seed": 7}))
+    assert code_texts(tl.load_mission("paper")) == texts
     pilot, flight, guide = texts["paper_pilot.h"], texts["paper_flight.h"], texts["README.md"]
     assert all(f"tandemlift {tl.__version__}" in text for text in (pilot, flight, guide))
     found, elsewhere = (re.search(r"hash ([0-9a-f]{16});", t["paper_pilot.h"])[1] for t in (texts, other))

@@ -209,7 +209,15 @@ def test_steps_off_the_sample_time_are_refused_by_name(fmi, fmu):
     assert same(exact.number("velocity", 3), summed.number("velocity", 3))
     assert same(exact.number("velocity", 3), multiple.number("velocity", 3))
     assert same(exact.number("velocity", 3), rounded.number("velocity", 3))
-    for time, size in ((2.0, 0.0015), (2.0, 0.0), (2.0, -0.001), (2.0, np.nan), (2.001, 0.001), (2.0006, 0.001), (2.0, 0.00100001)):
+    for time, size in (
+        (2.0, 0.0015),
+        (2.0, 0.0),
+        (2.0, -0.001),
+        (2.0, np.nan),
+        (2.001, 0.001),
+        (2.0006, 0.001),
+        (2.0, 0.00100001),
+    ):
         instance = begun()
         assert instance.step(time, size) == ERROR
         assert instance.said[-1].startswith("step-off-sample-time: ")

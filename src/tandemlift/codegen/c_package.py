@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from tandemlift.codegen.c.expressions import number
-from tandemlift.codegen.c.source import SourceFile
+from tandemlift.codegen.c.source import HASH, SourceFile
 from tandemlift.codegen.c.text import wrapped
 from tandemlift.codegen.c_flight import FlightFile
 from tandemlift.codegen.c_pilot import PilotFile
@@ -63,9 +63,15 @@ def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[
 
 
 def source_file(mission: Mission, single: bool = False) -> SourceFile:
-    """A file of C of a mission, as yet empty, with the first 16 digits of a hash of the mission's tables."""
-    m, tables = mission.mission, json.dumps(tables_of(mission), sort_keys=True, ensure_ascii=False, default=str)
-    return SourceFile(m.name, single, m.step, hashlib.sha256(tables.encode()).hexdigest()[:16])
+    """A file of C of a mission, as yet empty."""
+    return SourceFile(mission.mission.name, single, mission.mission.step)
+
+
+def with_hash(mission: Mission, texts: dict[str, str]) -> dict[str, str]:
+    """Texts with the first 16 digits of a hash of the mission's tables and of the texts, which have its laws."""
+    facts = json.dumps([tables_of(mission), texts], sort_keys=True, ensure_ascii=False, default=str)
+    digest = hashlib.sha256(facts.encode()).hexdigest()[:16]
+    return {name: text.replace(HASH, digest) for name, text in texts.items()}
 
 
 def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
@@ -82,7 +88,7 @@ def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
     facts = facts_of(mission, {*of_pilot.keys, *of_flight.keys})
     how = {"PRECISION": "single" if single else "double"}
     how["COMPARED"] = "within 1e-3 of the range of thrusts with 0" if single else "to the last bit"
-    return {
+    texts = {
         f"{file.name}_checks.h": file.filled("checks.h"),
         f"{file.name}_pilot.c": pilot.source(),
         f"{file.name}_pilot.h": pilot.header(),
@@ -95,6 +101,7 @@ def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
         "CMakeLists.txt": file.filled("CMakeLists.txt"),
         "README.md": file.filled("README.md", **how),
     }
+    return with_hash(mission, texts)
 
 
 def written(texts: dict[str, str], folder: Path) -> list[Path]:

@@ -8,7 +8,7 @@ from tandemlift.codegen import fmu_variables
 from tandemlift.codegen.c.expressions import number
 from tandemlift.codegen.c.source import SourceFile
 from tandemlift.codegen.c_flight import FlightFile
-from tandemlift.codegen.c_package import source_file
+from tandemlift.codegen.c_package import source_file, with_hash
 from tandemlift.codegen.c_pilot import PilotFile
 from tandemlift.codegen.number_facts import facts_of
 from tandemlift.codegen.prepare import PrepareFile, prepared_numbers
@@ -60,7 +60,7 @@ def pilot_part(mission: Mission) -> FmuPart:
     code = {"pilot.c": pilot.source(), "pilot.h": pilot.header()}
     code |= {"pilot_prepare.c": prepare.source(), "pilot_prepare.h": prepare.header(facts)}
     words = {"STARTS": _numbers(start), "ENDS": "", "PLACES": "", "COPIES": ""}
-    return _part(file, mission.mission.duration, "pilot", traced, found, code, words)
+    return _part(file, mission, "pilot", traced, found, code, words)
 
 
 def flight_part(mission: Mission, part: str) -> FmuPart:
@@ -90,7 +90,7 @@ def flight_part(mission: Mission, part: str) -> FmuPart:
         "COPIES": "\n".join(f"    prepared->inputs.{name} = prepared->{name};" for name, *_ in flight.traced_tables),
         "ENDS": f" || flight->k == {upper}FLIGHT_STEPS" if is_whole else "",
     }
-    return _part(file, mission.mission.duration, part, traced, variables, code, words)
+    return _part(file, mission, part, traced, variables, code, words)
 
 
 def _numbers(values: list[float]) -> str:
@@ -109,7 +109,7 @@ def _effective(traced: TracedAssembly, results: list[Any]) -> set[int]:
 
 def _part(
     file: SourceFile,
-    duration: float,
+    mission: Mission,
     part: str,
     traced: TracedAssembly,
     variables: list[fmu_variables.FmuVariable],
@@ -139,7 +139,8 @@ def _part(
     api = ["fmi2.c", "fmi3.c", "fmu.c", "fmu.h", "fmu_values.c"]  # a library speaks both versions
     texts = {f"{file.prefix}{name}": text for name, text in code.items()}
     texts |= {f"{file.prefix}{name}": file.filled(name, {kind}, **words) for name in ("checks.h", *api)}
-    return FmuPart(f"{file.prefix}{part}", PARTS[part], variables, texts, file.step, duration)
+    texts = with_hash(mission, texts)
+    return FmuPart(f"{file.prefix}{part}", PARTS[part], variables, texts, file.step, mission.mission.duration)
 
 
 def _lines(sizes: list[int]) -> str:

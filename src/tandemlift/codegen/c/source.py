@@ -29,6 +29,7 @@ from tandemlift.core.files import __version__
 TEXTS = files("tandemlift") / "data" / "c"
 PARTS = ("pilot", "flight", "pilot_prepare", "flight_prepare")
 AROUND = ("helpers.c", "single.c", *(f"{part}.{end}" for part in PARTS for end in "ch"))  # texts of the files with laws
+HASH = "/*@HASH@*/"  # stays in texts until all of them are there
 GENERATED = frozenset(["exact_solve", "solve", "GUSTS", "LEGS", "PUSHES", "WALLS"])  # further names at file scope
 BLOCK = re.compile(r"^ *//if (\w+)\n(.*?)^ *//end \1\n", re.MULTILINE | re.DOTALL)
 
@@ -143,11 +144,10 @@ class SourceFile:
         mission: its name.
         single: whether it computes in single precision.
         step: of the mission [s].
-        digest: a hash of the mission.
     """
 
-    def __init__(self, mission: str, single: bool, step: float, digest: str = "") -> None:
-        self.mission, self.digest = mission, digest
+    def __init__(self, mission: str, single: bool, step: float) -> None:
+        self.mission = mission
         self.name = identifier(mission).lower()
         self.prefix = self.name + "_"
         self.unit = Unit("float" if single else "double")
@@ -155,7 +155,7 @@ class SourceFile:
 
     def anew(self) -> SourceFile:
         """Another file of the mission, with an empty unit."""
-        return SourceFile(self.mission, self.real == "float", self.step, self.digest)
+        return SourceFile(self.mission, self.real == "float", self.step)
 
     @property
     def real(self) -> str:
@@ -174,7 +174,7 @@ class SourceFile:
         while BLOCK.search(text):
             text = BLOCK.sub(lambda m: m[2] if m[1] in kept else "", text)
         words = {"STEP": number(self.step, self.real), "NAME": self.mission} | words
-        words |= {"VERSION": __version__, "HASH": self.digest}
+        words |= {"VERSION": __version__, "HASH": HASH}
         text = re.sub(r"\bmission_", self.prefix, text)
         text = re.sub(r"\bMISSION_", self.prefix.upper(), text)
         text = re.sub(r"\breal\b", self.real, text)

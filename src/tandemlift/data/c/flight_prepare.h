@@ -1,5 +1,5 @@
 /* The flight's numbers from those of the mission "/*@NAME@*/".
- * Written by tandemlift /*@VERSION@*/ from a mission with the hash /*@HASH@*/; see README.md. */
+ * Written by tandemlift /*@VERSION@*/ from a mission and laws with the hash /*@HASH@*/; see README.md. */
 #ifndef MISSION_FLIGHT_PREPARE_H
 #define MISSION_FLIGHT_PREPARE_H
 

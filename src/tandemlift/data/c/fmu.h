@@ -1,5 +1,5 @@
 /* The functional mock-up unit (FMU) of the mission "/*@NAME@*/": an instance, for both versions of FMI. Written by
- * tandemlift /*@VERSION@*/ from a mission with the hash /*@HASH@*/. */
+ * tandemlift /*@VERSION@*/ from a mission and laws with the hash /*@HASH@*/. */
 #ifndef MISSION_FMU_H
 #define MISSION_FMU_H
 

@@ -1,5 +1,5 @@
 /* The pilot of the mission "/*@NAME@*/": from a measurement to rotor thrusts.
- * Written by tandemlift /*@VERSION@*/ from a mission with the hash /*@HASH@*/; see README.md. */
+ * Written by tandemlift /*@VERSION@*/ from a mission and laws with the hash /*@HASH@*/; see README.md. */
 #ifndef MISSION_PILOT_H
 #define MISSION_PILOT_H
 

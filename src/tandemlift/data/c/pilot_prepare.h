@@ -1,5 +1,5 @@
 /* The pilot's numbers from those of the mission "/*@NAME@*/".
- * Written by tandemlift /*@VERSION@*/ from a mission with the hash /*@HASH@*/; see README.md. */
+ * Written by tandemlift /*@VERSION@*/ from a mission and laws with the hash /*@HASH@*/; see README.md. */
 #ifndef MISSION_PILOT_PREPARE_H
 #define MISSION_PILOT_PREPARE_H
 
