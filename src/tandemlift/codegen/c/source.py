@@ -11,6 +11,7 @@ from typing import Any
 from tandemlift.codegen.c.expressions import number
 from tandemlift.codegen.c.text import wrapped
 from tandemlift.codegen.c.types import (
+    UNCALLED,
     Describe,
     Names,
     Signature,
@@ -128,7 +129,7 @@ def text_words() -> frozenset[str]:
     """All words of the code around laws: what is defined there is no name for a user's law or class."""
     texts = "\n".join((TEXTS / name).read_text("utf-8") for name in AROUND)
     code = re.sub(r"/\*.*?\*/", " ", re.sub(r"/\*@\w+@\*/", " ", texts), flags=re.DOTALL)
-    return GENERATED | set(re.findall(r"\b(?:mission_)?([A-Za-z]\w*)", code))
+    return GENERATED.union(UNCALLED.split(), re.findall(r"\b(?:mission_)?([A-Za-z]\w*)", code))
 
 
 def law_word(law: Any) -> str:
