@@ -23,7 +23,8 @@ typedef struct {
     mission_Inputs inputs;
 } mission_Prepared;
 
-/* 0, or 1 and the number of the first condition that other code would need:
+/* 0, or the number of the first condition that does not hold: then the numbers need other code, and `prepared` is of no
+ * use. A condition depends on keys:
  * /*@GUARDS@*/ */
 int mission_flight_prepare(const mission_FlightNumbers *numbers, mission_Prepared *prepared);
 

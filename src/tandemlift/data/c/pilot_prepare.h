@@ -16,7 +16,8 @@ typedef struct {
 
 extern const mission_PilotNumbers mission_pilot_numbers; /* as in the mission */
 
-/* The pilot before its first sample. 0, or 1 and the number of the first condition that other code would need:
+/* The pilot before its first sample. 0, or the number of the first condition that does not hold: then the numbers need
+ * other code, and `prepared` is of no use. A condition depends on keys:
  * /*@GUARDS@*/ */
 int mission_pilot_prepare(const mission_PilotNumbers *numbers, mission_PilotData *prepared);
 
