@@ -87,7 +87,13 @@ def test_unknown_platforms_versions_and_targets_are_refused(tmp_path):
     assert said == (
         "unknown platform 'linus'; there are linux, linux-arm64, windows, macos, none. Did you mean 'linux'?"
     )
-    assert refusal(tmp_path, fmi=1) == "fmi = 1: must be 2 or 3"
+    for version in (0, 1, True):
+        assert refusal(tmp_path, fmi=version) == f"fmi = {version}: must be 2 or 3"
+    said = refusal(tmp_path, platforms=["none", "linux"])
+    assert said == "platforms = none, linux: 'none' is for sources alone; leave it or the others out"
+    for names in ("linux", [], ()):
+        said = refusal(tmp_path, platforms=names)
+        assert said.startswith(f"platforms = {names!r}: must be a list of names of linux,")
     assert "only for target 'fmu'" in refusal(tmp_path, target="c", fmi=2)
 
 
@@ -104,6 +110,12 @@ def test_without_a_compiler_it_says_what_to_install(tmp_path, monkeypatch):
 def test_a_compiler_that_fails_is_quoted(tmp_path, monkeypatch):
     monkeypatch.setattr(fmu_binaries, "local_compiler", lambda: "false")
     assert re.match(r"platforms: false failed for \S+: ", refusal(tmp_path))
+
+
+def test_the_command_refuses_platforms_without_a_name(tmp_path):
+    given = ["hover", "--target", "fmu", "--platforms=", "--out", str(tmp_path)]
+    result = CliRunner().invoke(compile_command, given)
+    assert str(result.exception).startswith("unknown platform ''; there are linux,")
 
 
 def test_the_command_writes_three(tmp_path):
