@@ -57,7 +57,7 @@ def test_a_type_of_another_layout_has_a_name_that_the_other_header_does_not_have
     first, second = Structs(Names()), Structs(Names())
     inner = first.of(Pair(1.0, 2.0))
     outer = first.of(Pair(1.0, Pair(1.0, 2.0)))
-    second.adopt(first.all.values())
+    second.agree(first.all.values())
     assert second.of(Pair(Pair(3.0, 4.0), 1.0)).name == "Pair_3"
     assert second.of(Pair(3.0, Pair(1.0, 4.0))) == outer
     assert second.of(Pair(5.0, 6.0)) == inner

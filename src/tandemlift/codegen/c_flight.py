@@ -47,6 +47,7 @@ class FlightFile:
         unit.structs.keep((plan.model, plan.given, self.templates.sample))
         for value in (ZERO, *ROWS, plan.model, plan.given, self.templates.sample):  # these get the plain names
             unit.structs.of(value)
+        unit.structs.agree(())  # all types of the header have their names
         with unit.laws.recording():
             x = self.traced = step(self.templates, fuses=False, rolls=False)
         symbols = [*x.next_state, *x.sample, *x.body_in_contact, *x.body_on_feet, *x.body_in_free_air]

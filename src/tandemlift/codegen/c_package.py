@@ -81,7 +81,7 @@ def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
     of_flight = trace_assembly(mission)
     pilot = PilotFile(file.anew(), with_values(of_pilot.assembled, of_pilot.graph))
     of_both = file.anew()
-    of_both.unit.structs.adopt(pilot.file.public(pilot.public))  # one source may include both headers
+    of_both.unit.structs.agree(pilot.file.public(pilot.public))  # one source may include both headers
     flight = FlightFile(of_both, FlightPlan(mission, interactive=True))
     pilot_prepare = PrepareFile(file.anew(), of_pilot, "pilot")
     flight_prepare = PrepareFile(file.anew(), of_flight, "flight")

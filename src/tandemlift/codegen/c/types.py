@@ -60,10 +60,6 @@ class Names:
         """Whether a name is taken."""
         return name in RESERVED or name in self._taken
 
-    def take(self, names: Iterable[str]) -> None:
-        """Take names as they are."""
-        self._taken |= set(names)
-
     def new(self, wish: str, kept: Container[str] = ()) -> str:
         """The name that is wished for, with a number behind it if it is taken or `kept` for another."""
         plain = identifier(wish)
@@ -170,6 +166,7 @@ class Structs:
 
     def __init__(self, names: Names, kept: Iterable[str] = ()) -> None:
         self.names, self.kept, self.all = names, set(kept), dict[Any, Struct]()
+        self.elsewhere = dict[Any, str]()
         self._known = dict[int, tuple[Any, Struct]]()  # by id, which a value keeps as long as it is here
 
     def keep(self, value: Any) -> None:
@@ -179,10 +176,9 @@ class Structs:
             for _, part in parts_of(value):
                 self.keep(part)
 
-    def adopt(self, structs: Iterable[Struct]) -> None:
-        """Give types the names that they have in another header of the mission."""
-        self.all |= {(struct.source, struct.members): struct for struct in structs}
-        self.names.take(struct.name for struct in structs)
+    def agree(self, structs: Iterable[Struct]) -> None:
+        """From now on give types the names that they have among structs of another header, and other types others."""
+        self.elsewhere = {(struct.source, struct.members): struct.name for struct in structs}
 
     def of(self, value: Any) -> Any:
         """The type of a value: a `Struct`, or the letter of a number's type."""
@@ -194,7 +190,8 @@ class Structs:
         key = type(value), members
         if key not in self.all:
             wish = type(value).__name__ if hasattr(value, "_fields") else "Items"
-            name = self.names.new(wish, () if is_own(type(value)) else self.kept)
+            kept = set() if key in self.elsewhere else {*self.elsewhere.values()}
+            name = self.names.new(self.elsewhere.get(key, wish), kept if is_own(type(value)) else kept | self.kept)
             self.all[key] = Struct(name, members, len(list(numbers_in(value))), is_set(value), type(value))
         self._known[id(value)] = value, self.all[key]
         return self.all[key]
