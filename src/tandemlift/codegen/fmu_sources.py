@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any, NamedTuple
 
 from tandemlift.codegen import fmu_variables
@@ -26,6 +27,21 @@ PARTS = {
     "vehicle": "the vehicle without pilot: thrusts and push in; readings, state, joint wrenches out",
     "flight": "the whole flight: pilot, rotors, sensors and body",
 }
+
+
+PREFIX = """
+/* A program with the sources of several FMUs compiles those of each with its own FMI2_FUNCTION_PREFIX, or
+ * FMI3_FUNCTION_PREFIX, as in the headers of the standards: it stands before all names that other files see. */
+#if defined(FMI3_FUNCTION_PREFIX) && !defined(FMI2_FUNCTION_PREFIX)
+#define FMI2_FUNCTION_PREFIX FMI3_FUNCTION_PREFIX
+#endif
+#if defined(FMI2_FUNCTION_PREFIX) && !defined(FMU_NAME)
+#define FMU_PASTE(a, b) a##b
+#define FMU_JOIN(a, b) FMU_PASTE(a, b)
+#define FMU_NAME(name) FMU_JOIN(FMI2_FUNCTION_PREFIX, name)
+{}
+#endif
+"""
 
 
 class FmuPart(NamedTuple):
@@ -139,8 +155,17 @@ def _part(
     api = ["fmi2.c", "fmi3.c", "fmu.c", "fmu.h", "fmu_values.c"]  # a library speaks both versions
     texts = {f"{file.prefix}{name}": text for name, text in code.items()}
     texts |= {f"{file.prefix}{name}": file.filled(name, {kind}, **words) for name in ("checks.h", *api)}
+    texts[f"{file.prefix}checks.h"] += _prefixed("\n".join(texts.values()), file.prefix)
     texts = with_hash(mission, texts)
     return FmuPart(f"{file.prefix}{part}", PARTS[part], variables, texts, file.step, mission.mission.duration)
+
+
+def _prefixed(code: str, mission: str) -> str:
+    """Macros for a program with the sources of several FMUs: a prefix before all names that other files see."""
+    types = re.findall(r"^NO_SUCH_TYPE\((\w+)", code, re.MULTILINE)
+    names = {f"fmi{version}{verb}{kind}" for version in "23" for verb in ("Get", "Set") for kind in types}
+    names.update(re.findall(rf"\b(?:fmi[23][A-Z]|fmu_[a-z]|{mission}(?:pilot|flight)_[a-z])\w*", code))
+    return PREFIX.format("\n".join(f"#define {name} FMU_NAME({name})" for name in sorted(names)))
 
 
 def _lines(sizes: list[int]) -> str:
