@@ -9,7 +9,8 @@ from c_flights import STRICT
 from repository import ROOT
 
 import tandemlift as tl
-from tandemlift.codegen.c.types import Names, Structs
+from tandemlift.codegen.c.names import Names
+from tandemlift.codegen.c.types import Structs
 from tandemlift.codegen.c_package import code_texts, written
 from tools import need
 

@@ -11,10 +11,11 @@ from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from tandemlift.codegen.c.expressions import number
+from tandemlift.codegen.c.names import Names
 from tandemlift.codegen.c.source import SourceFile, Unit
 from tandemlift.codegen.c.statements import Statements
 from tandemlift.codegen.c.text import WIDTH, FunctionHead, comment, function
-from tandemlift.codegen.c.types import Names, leaf_paths
+from tandemlift.codegen.c.types import leaf_paths
 from tandemlift.codegen.number_facts import key_comment
 from tandemlift.compiler.tracer import LEAVES, Function, Module, Place, Symbol, symbols
 from tandemlift.core.types import rebuilt

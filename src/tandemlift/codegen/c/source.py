@@ -9,15 +9,13 @@ from importlib.resources import files
 from typing import Any
 
 from tandemlift.codegen.c.expressions import number
+from tandemlift.codegen.c.names import UNCALLED, Names, identifier
 from tandemlift.codegen.c.text import wrapped
 from tandemlift.codegen.c.types import (
-    UNCALLED,
     Describe,
-    Names,
     Signature,
     Struct,
     Structs,
-    identifier,
     is_own,
     parts_of,
     signature_of,
