@@ -10,7 +10,7 @@ import pytest
 from c_flights import STRICT, same, unfused
 
 import tandemlift as tl
-from tandemlift.codegen.c_package import MARK, code_texts, write_c, written
+from tandemlift.codegen.c_package import MARK, code_texts, pilot_selftest, pilot_vectors, source_file, write_c, written
 from tandemlift.core.files import check_own
 from tandemlift.core.types import leaves
 from tandemlift.simulation.pilot_api import INPUT, pilot_at_start
@@ -29,17 +29,19 @@ class PilotInC:
         subprocess.run(["gcc", *STRICT, "-O0", "-shared", "-fPIC", source, "-o", library, "-lm"], check=True)
         self.real = np.float32 if single else np.float64
         name, self.library = source.name.removesuffix("_pilot.c"), ctypes.CDLL(str(library))
+        self.name = name
         self.numbers = np.zeros(leaves(pilot_at_start(mission)), self.real)
         self.input = np.zeros(leaves(INPUT), self.real)
         self.thrusts = np.zeros(4 * len(mission.vehicle.quadrotors), self.real)
         self._step = getattr(self.library, f"{name}_pilot_step")
+        self._step.restype = ctypes.c_bool
         self._places = [ctypes.c_void_p(a.ctypes.data) for a in (self.numbers, self.input, self.thrusts)]
         getattr(self.library, f"{name}_pilot_start")(self._places[0])
 
     def step(self, measurement):
         """Thrusts [N] for a measurement, as of `tl.Pilot`."""
         self.input[:16], self.input[22] = measurement, 1.0
-        self._step(*self._places)
+        self.takes = self._step(*self._places)
         return self.thrusts
 
 
@@ -77,6 +79,49 @@ def test_its_thrusts_have_the_bits_of_the_native_pilot(name, tmp_path):
     assert len(np.unique(found[:, 1])) > 1000
 
 
+@pytest.mark.parametrize("wrong", [np.nan, np.inf, -np.inf])
+def test_a_number_that_is_not_finite_changes_nothing_as_in_the_native_pilot(wrong, tmp_path):
+    need("gcc")
+    mission = unfused(tl.load_mission("hover"))
+    in_c, native, still = PilotInC(mission, tmp_path, code_texts(mission)), tl.Pilot(mission), np.eye(16)[6]
+    for _ in range(100):
+        in_c.step(still)
+        native.step(still)
+    assert in_c.takes
+    for at in range(16):
+        numbers, thrusts, bad = in_c.numbers.copy(), in_c.thrusts.copy(), still.copy()
+        bad[at] = wrong
+        in_c.step(bad)
+        assert not in_c.takes
+        assert same(in_c.numbers, numbers)
+        assert same(in_c.thrusts, thrusts)
+        with pytest.raises(tl.InputError, match="must be a finite number without supervision"):
+            native.step(bad)
+    in_c.input[16] = wrong  # the moment
+    in_c.step(still)
+    assert not in_c.takes
+    in_c.input[16] = 0.0
+    for _ in range(100):
+        assert same(in_c.step(still), native.step(still))
+        assert in_c.takes
+
+
+def test_with_supervision_a_number_that_is_not_finite_stays_out_of_the_memory(tmp_path):
+    need("gcc")
+    mission = unfused(tl.load_mission("iris", {"pilot.guidance": "interactive", "supervision.model": "on"}))
+    texts = code_texts(mission)
+    in_c, still = PilotInC(mission, tmp_path, texts), np.eye(16)[6]
+    for at in range(16):
+        bad = still.copy()
+        bad[at] = np.nan
+        in_c.step(still)
+        in_c.step(bad)
+        assert in_c.takes
+        assert np.isfinite(in_c.step(still)).all()
+    assert np.isfinite(in_c.numbers).all()
+    assert "supervision detects numbers that are not finite" in texts[f"{in_c.name}_pilot.h"]
+
+
 def test_the_self_tests_pass_and_fail_when_a_bit_is_other(tmp_path):
     need("gcc")
     files = write_c(tl.load_mission("one-push"), tmp_path)
@@ -90,6 +135,17 @@ def test_the_self_tests_pass_and_fail_when_a_bit_is_other(tmp_path):
         digit = [place.end() - 1 for place in re.finditer(r"\d\.\d{3,}", data)][-1]
         source.write_text(text[:digit] + str((int(text[digit]) + 5) % 10) + text[digit + 1 :])
         assert subprocess.run([build(source, "-O0")], check=False, capture_output=True).returncode == 1
+
+
+def test_a_pilot_in_single_precision_passes_where_the_thrusts_of_its_flight_are_constant(tmp_path):
+    need("gcc")
+    mission = tl.load_mission("hover", {"mission.duration": 0.1, "mission.fma": False})
+    vectors = pilot_vectors(mission)
+    assert np.ptp([thrusts for *_, thrusts in vectors]) == 0.0
+    text = pilot_selftest(source_file(mission, True), vectors)
+    written(code_texts(mission, True) | {"hover_pilot_selftest.c": text}, tmp_path)
+    run = subprocess.run([build(tmp_path / "hover_pilot_selftest.c")], check=False, capture_output=True)
+    assert run.stdout.startswith(b"ok"), run.stdout
 
 
 @pytest.mark.parametrize("name", ["CMakeLists.txt", "README.md"])
@@ -139,6 +195,7 @@ def test_its_functions_are_short_allocate_nothing_and_name_their_laws():
 
 def test_its_headers_say_version_hash_units_frames_and_meanings():
     texts, other = (code_texts(tl.load_mission("paper", changes)) for changes in ({}, {"mission.seed": 7}))
+    assert code_texts(tl.load_mission("paper")) == texts
     pilot, flight, guide = texts["paper_pilot.h"], texts["paper_flight.h"], texts["README.md"]
     assert all(f"tandemlift {tl.__version__}" in text for text in (pilot, flight, guide))
     found, elsewhere = (re.search(r"hash ([0-9a-f]{16});", t["paper_pilot.h"])[1] for t in (texts, other))

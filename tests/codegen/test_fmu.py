@@ -175,20 +175,49 @@ def test_values_that_need_other_code_fail_with_their_keys(fmi, fmu):
 
 
 @BOTH
+def test_a_pilot_takes_no_step_with_a_number_that_is_not_finite(fmi, fmu):
+    pilot, mission = Instance(fmu("paper", "pilot", fmi)), unfused(tl.load_mission("paper"))
+    native, still = tl.Pilot(mission), np.eye(16)[6]
+    assert pilot.begin() == OK
+    for wrong in (np.nan, np.inf):
+        pilot.set("attitude", [1.0, 0.0, wrong, 0.0])
+        assert pilot.step(0.0, 0.001) == DISCARD
+        assert "not finite" in pilot.said[-1]
+    pilot.set("attitude", [1.0, 0.0, 0.0, 0.0])
+    for k in range(100):
+        assert pilot.step(k * 0.001, 0.001) == OK
+        assert same(pilot.number("thrusts", 8), native.step(still))
+    pilot = Instance(fmu("paper", "pilot", fmi))
+    pilot.set("velocity", [np.nan, 0.0, 0.0])
+    assert pilot.begin() == ERROR
+
+
+@BOTH
 def test_steps_off_the_sample_time_are_refused_by_name(fmi, fmu):
     def begun():
         instance = Instance(fmu("hover", "flight", fmi), start=2.0)
         assert instance.begin() == OK
         return instance
 
-    exact, multiple, rounded = begun(), begun(), begun()
+    exact, multiple, rounded, summed = begun(), begun(), begun(), begun()
     for k in range(10):
         assert exact.step(2.0 + k * 0.001, 0.001) == OK
     assert multiple.step(2.0, 0.01) == OK
     assert rounded.step(2.0, 0.01 * (1.0 + 1e-8)) == OK
+    for k in range(10):
+        assert summed.step(2.0 + k * 0.001 + (-1) ** k * 0.00045, 0.001) == OK  # as where steps are summed for days
+    assert same(exact.number("velocity", 3), summed.number("velocity", 3))
     assert same(exact.number("velocity", 3), multiple.number("velocity", 3))
     assert same(exact.number("velocity", 3), rounded.number("velocity", 3))
-    for time, size in ((2.0, 0.0015), (2.0, 0.0), (2.0, -0.001), (2.0, np.nan), (2.001, 0.001), (2.0, 0.00100001)):
+    for time, size in (
+        (2.0, 0.0015),
+        (2.0, 0.0),
+        (2.0, -0.001),
+        (2.0, np.nan),
+        (2.001, 0.001),
+        (2.0006, 0.001),
+        (2.0, 0.00100001),
+    ):
         instance = begun()
         assert instance.step(time, size) == ERROR
         assert instance.said[-1].startswith("step-off-sample-time: ")

@@ -2,18 +2,24 @@
 
 import re
 import struct
+import subprocess
 import sys
 import zipfile
 from xml.etree import ElementTree
 
 import pytest
+from c_flights import STRICT
 from click.testing import CliRunner
 
 import tandemlift as tl
 from tandemlift.apps.cli.export import compile as compile_command
 from tandemlift.codegen import fmu_binaries
+from tandemlift.codegen.c_package import written
 from tandemlift.codegen.fmu_binaries import universal
 from tandemlift.codegen.fmu_description import base_unit
+from tandemlift.codegen.fmu_sources import flight_part, pilot_part
+from tandemlift.simulation.caller_values import portable_mission
+from tools import need
 
 NAMES = ["hover_pilot.fmu", "hover_vehicle.fmu", "hover_flight.fmu"]
 
@@ -87,7 +93,13 @@ def test_unknown_platforms_versions_and_targets_are_refused(tmp_path):
     assert said == (
         "unknown platform 'linus'; there are linux, linux-arm64, windows, macos, none. Did you mean 'linux'?"
     )
-    assert refusal(tmp_path, fmi=1) == "fmi = 1: must be 2 or 3"
+    for version in (0, 1, True):
+        assert refusal(tmp_path, fmi=version) == f"fmi = {version}: must be 2 or 3"
+    said = refusal(tmp_path, platforms=["none", "linux"])
+    assert said == "platforms = none, linux: 'none' is for sources alone; leave it or the others out"
+    for names in ("linux", [], ()):
+        said = refusal(tmp_path, platforms=names)
+        assert said.startswith(f"platforms = {names!r}: must be a list of names of linux,")
     assert "only for target 'fmu'" in refusal(tmp_path, target="c", fmi=2)
 
 
@@ -104,6 +116,33 @@ def test_without_a_compiler_it_says_what_to_install(tmp_path, monkeypatch):
 def test_a_compiler_that_fails_is_quoted(tmp_path, monkeypatch):
     monkeypatch.setattr(fmu_binaries, "local_compiler", lambda: "false")
     assert re.match(r"platforms: false failed for \S+: ", refusal(tmp_path))
+
+
+def test_the_command_refuses_platforms_without_a_name(tmp_path):
+    given = ["hover", "--target", "fmu", "--platforms=", "--out", str(tmp_path)]
+    result = CliRunner().invoke(compile_command, given)
+    assert str(result.exception).startswith("unknown platform ''; there are linux,")
+
+
+def test_one_program_links_the_sources_of_several_fmus_by_their_prefixes(tmp_path):
+    need("gcc", "nm")
+    mission, objects = portable_mission(tl.load_mission("hover")), []
+    for described in (pilot_part(mission), *(flight_part(mission, part) for part in ("vehicle", "flight"))):
+        folder, prefix = tmp_path / described.identifier, f"{described.identifier}_"
+        for source in [f for f in written(described.texts, folder) if f.suffix == ".c"]:
+            objects.append(source.with_suffix(".o"))
+            options = (*STRICT, "-O0", f"-DFMI2_FUNCTION_PREFIX={prefix}", "-c", source, "-o", objects[-1])
+            subprocess.run(["gcc", *options], check=True)
+            seen = subprocess.run(
+                ["nm", "-g", "--defined-only", objects[-1]], capture_output=True, text=True, check=True
+            )
+            assert all(line.split()[-1].startswith(prefix) for line in seen.stdout.splitlines())
+    main = tmp_path / "main.c"
+    calls = [f"{name.removesuffix('.fmu')}_fmi2GetVersion" for name in NAMES]
+    heads = "\n".join(f"const char *{call}(void);" for call in calls)
+    main.write_text(f"{heads}\nint main(void)\n{{\n    return !({' && '.join(f'{c}()' for c in calls)});\n}}\n")
+    subprocess.run(["gcc", "-std=c99", main, *objects, "-o", tmp_path / "main", "-lm"], check=True)
+    subprocess.run([tmp_path / "main"], check=True)
 
 
 def test_the_command_writes_three(tmp_path):

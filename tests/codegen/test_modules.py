@@ -115,6 +115,17 @@ def test_unknown_targets_are_refused_with_those_that_there_are(tmp_path: Path, m
     assert not (tmp_path / "x").exists()
 
 
+def test_an_object_does_not_replace_that_of_another_machine(tmp_path: Path) -> None:
+    mission = tl.load_mission("hover")
+    compile_mission(mission, "aarch64", tmp_path)
+    held = (tmp_path / "hover.o").read_bytes()
+    compile_mission(mission, "aarch64", tmp_path)
+    for target in ("cortex-m7", "wasm32"):
+        with pytest.raises(tl.InputError, match=rf"hover\.json: is not for {target}, so it stays: give another folder"):
+            compile_mission(mission, target, tmp_path)
+    assert (tmp_path / "hover.o").read_bytes() == held
+
+
 @pytest.mark.parametrize("target", ["wasm32", "c", "fmu"])
 def test_missions_that_no_other_machine_can_fly_are_refused(target: str, tmp_path: Path) -> None:
     change = {"time": 1.0, "key": "admittance.mass", "value": 2.0}

@@ -361,6 +361,9 @@ def test_what_is_no_measurement_is_refused():
     for measurement in (np.zeros(15), np.zeros((1, 16)), np.zeros(16, dtype=np.float32), [0.0] * 16, None):
         with pytest.raises(tl.InputError, match=r"must be a float64 array of shape \(16,\)"):
             pilot.step(measurement)
+    for moment in (5.0, np.zeros(4), [[1.0], [2.0], [3.0]], "up"):
+        with pytest.raises(tl.InputError, match=r"moment = .+: must be 3 numbers \[N m\]"):
+            pilot.step(np.eye(16)[6], moment)
 
 
 def test_without_supervision_a_number_that_is_not_finite_is_refused_and_nothing_remembered():

@@ -44,8 +44,10 @@ class FlightFile:
     def __init__(self, file: SourceFile, plan: FlightPlan, step: Callable[..., TracedStep] = TracedStep) -> None:
         self.file, self.plan, unit = file, plan, file.unit
         self.templates, self.delayed = templates_from(plan.model, plan.given), plan.loop_code.delayed
+        unit.structs.keep((plan.model, plan.given, self.templates.sample))
         for value in (ZERO, *ROWS, plan.model, plan.given, self.templates.sample):  # these get the plain names
             unit.structs.of(value)
+        unit.structs.agree(())  # all types of the header have their names
         with unit.laws.recording():
             x = self.traced = step(self.templates, fuses=False, rolls=False)
         symbols = [*x.next_state, *x.sample, *x.body_in_contact, *x.body_on_feet, *x.body_in_free_air]

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from tandemlift.codegen.c.expressions import number
-from tandemlift.codegen.c.source import SourceFile
+from tandemlift.codegen.c.source import HASH, SourceFile
 from tandemlift.codegen.c.text import wrapped
 from tandemlift.codegen.c_flight import FlightFile
 from tandemlift.codegen.c_pilot import PilotFile
@@ -29,7 +29,7 @@ from tandemlift.simulation.preparation.traced_assembly import trace_assembly, wi
 VECTORS = 40  # stored samples of a pilot
 ROWS = 12  # stored samples of a flight
 MEASURED = ("position", "velocity", "attitude", "rates", "push_force")
-TOLERANCE = 1e-3  # of the range of thrusts, in single precision
+TOLERANCE = 1e-3  # of the range of thrusts with 0, in single precision
 NAN = 0x7FF8000000000000  # the value of every NaN in the sum over a log
 GENERAL, MARK = ("CMakeLists.txt", "README.md"), "written by tandemlift"  # names that another project may have, too
 
@@ -63,9 +63,15 @@ def write_c(mission: Mission, folder: Path | str, single: bool = False) -> list[
 
 
 def source_file(mission: Mission, single: bool = False) -> SourceFile:
-    """A file of C of a mission, as yet empty, with the first 16 digits of a hash of the mission's tables."""
-    m, tables = mission.mission, json.dumps(tables_of(mission), sort_keys=True, ensure_ascii=False, default=str)
-    return SourceFile(m.name, single, m.step, hashlib.sha256(tables.encode()).hexdigest()[:16])
+    """A file of C of a mission, as yet empty."""
+    return SourceFile(mission.mission.name, single, mission.mission.step)
+
+
+def with_hash(mission: Mission, texts: dict[str, str]) -> dict[str, str]:
+    """Texts with the first 16 digits of a hash of the mission's tables and of the texts, which have its laws."""
+    facts = json.dumps([tables_of(mission), texts], sort_keys=True, ensure_ascii=False, default=str)
+    digest = hashlib.sha256(facts.encode()).hexdigest()[:16]
+    return {name: text.replace(HASH, digest) for name, text in texts.items()}
 
 
 def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
@@ -74,13 +80,15 @@ def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
     file, of_pilot = source_file(mission, single), trace_assembly(mission, pilot_at_start)
     of_flight = trace_assembly(mission)
     pilot = PilotFile(file.anew(), with_values(of_pilot.assembled, of_pilot.graph))
-    flight = FlightFile(file.anew(), FlightPlan(mission, interactive=True))
+    of_both = file.anew()
+    of_both.unit.structs.agree(pilot.file.public(pilot.public))  # one source may include both headers
+    flight = FlightFile(of_both, FlightPlan(mission, interactive=True))
     pilot_prepare = PrepareFile(file.anew(), of_pilot, "pilot")
     flight_prepare = PrepareFile(file.anew(), of_flight, "flight")
     facts = facts_of(mission, {*of_pilot.keys, *of_flight.keys})
     how = {"PRECISION": "single" if single else "double"}
-    how["COMPARED"] = "within 1e-3 of the range of thrusts" if single else "to the last bit"
-    return {
+    how["COMPARED"] = "within 1e-3 of the range of thrusts with 0" if single else "to the last bit"
+    texts = {
         f"{file.name}_checks.h": file.filled("checks.h"),
         f"{file.name}_pilot.c": pilot.source(),
         f"{file.name}_pilot.h": pilot.header(),
@@ -93,6 +101,7 @@ def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
         "CMakeLists.txt": file.filled("CMakeLists.txt"),
         "README.md": file.filled("README.md", **how),
     }
+    return with_hash(mission, texts)
 
 
 def written(texts: dict[str, str], folder: Path) -> list[Path]:
@@ -132,7 +141,7 @@ def pilot_selftest(file: SourceFile, vectors: Sequence[tuple[Array, Array, Array
     """The program that compares the pilot with samples of `pilot_vectors`."""
     lines = [wrapped("{" + ", ".join(braced(file, part) for part in vector) + "},") for vector in vectors]
     memory, pilot_input, _ = vectors[0]
-    span = np.ptp([thrusts for *_, thrusts in vectors])
+    span = np.ptp([np.append(thrusts, 0.0) for *_, thrusts in vectors])  # they may be constant
     words = {
         "VECTORS": str(len(vectors)),
         "MEMORY": str(len(memory)),

@@ -5,12 +5,14 @@ The solver is called under a branch; around the laws of its search stands a loop
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 from tandemlift.codegen.c.laws import write_functions
 from tandemlift.codegen.c.source import SourceFile, Unit
 from tandemlift.codegen.c.statements import Statements
 from tandemlift.codegen.c.text import FunctionHead, function
+from tandemlift.codegen.c.types import leaf_paths
 from tandemlift.codegen.number_facts import described
 from tandemlift.core.types import leaves, rebuilt
 from tandemlift.core.vector import each
@@ -18,6 +20,7 @@ from tandemlift.simulation.pilot_api import INPUT
 from tandemlift.simulation.preparation.limit_solver import LimitProblem, TracedSolver
 from tandemlift.simulation.preparation.pilot_sampling import PilotData, PilotDataState, PilotSampler
 
+VECTORS = 6  # that are measured: position, velocity, attitude, rates, force, moment
 SAMPLE = "/* A sample of the pilot (tandemlift.simulation.preparation.pilot_sampling). */\n"
 
 
@@ -31,6 +34,7 @@ class PilotFile:
 
     def __init__(self, file: SourceFile, start: PilotData) -> None:
         self.file, self.start, unit = file, start, file.unit
+        unit.structs.keep((start, INPUT))
         self.public = [unit.structs.of(start), unit.structs.of(INPUT)]
         with unit.laws.recording():
             self.sampler = PilotSampler(start, INPUT, 1, fuses=False, rolls=False)
@@ -41,14 +45,22 @@ class PilotFile:
         """The text of the header."""
         types = self.file.typedefs(self.public, described)
         types = types.replace("    float samples;", "    uint32_t samples;")  # a float counts to 2²⁴ only
-        return self.file.filled("pilot.h", ROTORS=str(len(self.thrusts)), TYPES=types)
+        return self.file.filled("pilot.h", self._has, ROTORS=str(len(self.thrusts)), TYPES=types)
 
     def source(self) -> str:
         """The text of the source."""
         unit = self.file.unit
         self._write_sample()
         unit.texts.append(self.file.constant(self.start, "START"))
-        return self.file.source("pilot.c", self.public, SET=unit.type_of(self.thrusts))
+        vectors = itertools.groupby((path for path, _ in leaf_paths(INPUT)), lambda path: path.rpartition(".")[0])
+        zeros = [" + ".join(f"0 * input->{path[1:]}" for path in paths) for _, paths in vectors][:VECTORS]
+        words = {"SET": unit.type_of(self.thrusts), "ZERO": "\n        + ".join(zeros)}
+        return self.file.source("pilot.c", self.public, self._has, **words)
+
+    @property
+    def _has(self) -> set[str]:
+        """The blocks of the texts that this pilot needs."""
+        return {"refuses" if self.sampler.refuses else "supervised"}
 
     def _write_sample(self) -> None:
         unit, x = self.file.unit, self.sampler
@@ -97,13 +109,13 @@ static {state} {name}(const {problem} *problem, const {state} *held)
 """
 WIDENED = """/* The same in single precision. The search is in doubles: where part of a wrench is out of reach,
  * its sums cancel all digits of a float. */
-static AllocationState solve(const BoundedProblem *problem, const AllocationState *held)
+static {result} solve(const {given} *problem, const {result} *held)
 {{
     float given[{size}], before[{held}];
     double numbers[{size}], start[{held}];
     {problem} exact;
     {state} found;
-    AllocationState result;
+    {result} result;
     memcpy(given, problem, sizeof given);
     memcpy(before, held, sizeof before);
     for (int i = 0; i < {size}; i++) {{
@@ -156,4 +168,5 @@ def write_solver(file_unit: Unit, solver: TracedSolver) -> None:
     unit.texts.append(SOLVE.format(**words))
     if unit is not file_unit:
         file_unit.take(unit)
+        words |= {"given": file_unit.type_of(problem), "result": file_unit.type_of(held)}
         file_unit.texts.append(WIDENED.format(**words, size=leaves(problem), held=leaves(held)))

@@ -76,11 +76,17 @@ def chosen_platforms(names: Sequence[str]) -> list[str]:
     """The platforms by names, each once; [] for "none", which are sources alone.
 
     Raises:
-        InputError: a platform is unknown, or no compiler for it is installed.
+        InputError: they are no list of names, a platform is unknown, or no compiler for it is installed.
     """
+    if isinstance(names, str) or not names:
+        raise InputError(f"platforms = {names!r}: must be a list of names of {_known()}")
     wanted = list(dict.fromkeys(name.strip() for name in names))
     if wanted == [SOURCES]:
         return []
+    if SOURCES in wanted:
+        raise InputError(
+            f"platforms = {', '.join(wanted)}: {SOURCES!r} is for sources alone; leave it or the others out"
+        )
     for name in wanted:
         if name != HOST and name not in PLATFORMS:
             raise unknown("platform", name, [*PLATFORMS, SOURCES])

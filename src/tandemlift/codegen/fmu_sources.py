@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any, NamedTuple
 
 from tandemlift.codegen import fmu_variables
 from tandemlift.codegen.c.expressions import number
 from tandemlift.codegen.c.source import SourceFile
 from tandemlift.codegen.c_flight import FlightFile
-from tandemlift.codegen.c_package import source_file
+from tandemlift.codegen.c_package import source_file, with_hash
 from tandemlift.codegen.c_pilot import PilotFile
 from tandemlift.codegen.number_facts import facts_of
 from tandemlift.codegen.prepare import PrepareFile, prepared_numbers
@@ -26,6 +27,21 @@ PARTS = {
     "vehicle": "the vehicle without pilot: thrusts and push in; readings, state, joint wrenches out",
     "flight": "the whole flight: pilot, rotors, sensors and body",
 }
+
+
+PREFIX = """
+/* A program with the sources of several FMUs compiles those of each with its own FMI2_FUNCTION_PREFIX, or
+ * FMI3_FUNCTION_PREFIX, as in the headers of the standards: it stands before all names that other files see. */
+#if defined(FMI3_FUNCTION_PREFIX) && !defined(FMI2_FUNCTION_PREFIX)
+#define FMI2_FUNCTION_PREFIX FMI3_FUNCTION_PREFIX
+#endif
+#if defined(FMI2_FUNCTION_PREFIX) && !defined(FMU_NAME)
+#define FMU_PASTE(a, b) a##b
+#define FMU_JOIN(a, b) FMU_PASTE(a, b)
+#define FMU_NAME(name) FMU_JOIN(FMI2_FUNCTION_PREFIX, name)
+{}
+#endif
+"""
 
 
 class FmuPart(NamedTuple):
@@ -60,7 +76,7 @@ def pilot_part(mission: Mission) -> FmuPart:
     code = {"pilot.c": pilot.source(), "pilot.h": pilot.header()}
     code |= {"pilot_prepare.c": prepare.source(), "pilot_prepare.h": prepare.header(facts)}
     words = {"STARTS": _numbers(start), "ENDS": "", "PLACES": "", "COPIES": ""}
-    return _part(file, mission.mission.duration, "pilot", traced, found, code, words)
+    return _part(file, mission, "pilot", traced, found, code, words)
 
 
 def flight_part(mission: Mission, part: str) -> FmuPart:
@@ -90,7 +106,7 @@ def flight_part(mission: Mission, part: str) -> FmuPart:
         "COPIES": "\n".join(f"    prepared->inputs.{name} = prepared->{name};" for name, *_ in flight.traced_tables),
         "ENDS": f" || flight->k == {upper}FLIGHT_STEPS" if is_whole else "",
     }
-    return _part(file, mission.mission.duration, part, traced, variables, code, words)
+    return _part(file, mission, part, traced, variables, code, words)
 
 
 def _numbers(values: list[float]) -> str:
@@ -109,7 +125,7 @@ def _effective(traced: TracedAssembly, results: list[Any]) -> set[int]:
 
 def _part(
     file: SourceFile,
-    duration: float,
+    mission: Mission,
     part: str,
     traced: TracedAssembly,
     variables: list[fmu_variables.FmuVariable],
@@ -139,7 +155,17 @@ def _part(
     api = ["fmi2.c", "fmi3.c", "fmu.c", "fmu.h", "fmu_values.c"]  # a library speaks both versions
     texts = {f"{file.prefix}{name}": text for name, text in code.items()}
     texts |= {f"{file.prefix}{name}": file.filled(name, {kind}, **words) for name in ("checks.h", *api)}
-    return FmuPart(f"{file.prefix}{part}", PARTS[part], variables, texts, file.step, duration)
+    texts[f"{file.prefix}checks.h"] += _prefixed("\n".join(texts.values()), file.prefix)
+    texts = with_hash(mission, texts)
+    return FmuPart(f"{file.prefix}{part}", PARTS[part], variables, texts, file.step, mission.mission.duration)
+
+
+def _prefixed(code: str, mission: str) -> str:
+    """Macros for a program with the sources of several FMUs: a prefix before all names that other files see."""
+    types = re.findall(r"^NO_SUCH_TYPE\((\w+)", code, re.MULTILINE)
+    names = {f"fmi{version}{verb}{kind}" for version in "23" for verb in ("Get", "Set") for kind in types}
+    names.update(re.findall(rf"\b(?:fmi[23][A-Z]|fmu_[a-z]|{mission}(?:pilot|flight)_[a-z])\w*", code))
+    return PREFIX.format("\n".join(f"#define {name} FMU_NAME({name})" for name in sorted(names)))
 
 
 def _lines(sizes: list[int]) -> str:

@@ -161,8 +161,8 @@ def compile_mission(
         The files: a module or object and its manifest, the sources of a C project, or three FMUs.
 
     Raises:
-        InputError: the target or a platform is unknown, no compiler for it is there, or no other machine can fly the
-            mission.
+        InputError: the target or a platform is unknown, no compiler for it is there, no other machine can fly the
+            mission, or the folder has its manifest for another target.
     """
     if target not in TARGETS:
         raise InputError(f"target = {target!r}: must be one of {', '.join(TARGETS)}")
@@ -171,14 +171,16 @@ def compile_mission(
     if (fmi is not None or platforms is not None) and target != "fmu":
         raise InputError(f"fmi and platforms: only for target 'fmu', not for {target!r}")
     if target == "fmu":
-        return write_fmus(mission_of(mission), folder, fmi or VERSIONS[0], (HOST,) if platforms is None else platforms)
+        version = VERSIONS[0] if fmi is None else fmi
+        return write_fmus(mission_of(mission), folder, version, (HOST,) if platforms is None else platforms)
     if target == "c":
         return write_c(mission_of(mission), folder, single)
-    module = module_of(mission_of(mission), target)
+    mission = mission_of(mission)
+    code, description = (Path(folder) / f"{mission.mission.name}.{end}" for end in (ENDINGS.get(target, "o"), "json"))
+    if description.exists() and f'"target": "{target}"' not in description.read_text("utf-8", "replace"):
+        raise InputError(f"{description}: is not for {target}, so it stays: give another folder, or move it")
+    module = module_of(mission, target)
     manifest = json.dumps(module.manifest, indent=1, ensure_ascii=False)
-    code, description = (
-        Path(folder) / f"{module.manifest['mission']}.{end}" for end in (ENDINGS.get(target, "o"), "json")
-    )
     write_file(code, module.code)
     write_file(description, manifest)
     return [code, description]

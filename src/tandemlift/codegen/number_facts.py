@@ -11,6 +11,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from tandemlift.codegen.c.text import WIDTH, comment
+from tandemlift.codegen.c.types import is_own
 from tandemlift.core.keys import description_of
 from tandemlift.flight.channels import CHANNELS, Channel
 from tandemlift.missions import Mission
@@ -100,10 +101,14 @@ def described(source: type, field: str) -> str:
     """The comment of a class, as C has it; or of a field of it: unit, frame and meaning; "" where nothing says it."""
     text = inspect.getdoc(source) or ""
     if not field:
-        own = source.__module__.startswith("tandemlift.")
-        return comment(textwrap.wrap(text.partition("\n\nAttributes:")[0], WIDTH)).rstrip() if own and text else ""
-    known: Mapping[str, Channel] = FIELDS.get(source.__name__, {})
-    is_sample = source.__name__ == "Sample" or source.__name__.endswith("Channels")
+        return (
+            comment(textwrap.wrap(text.partition("\n\nAttributes:")[0], WIDTH)).rstrip()
+            if is_own(source) and text
+            else ""
+        )
+    own = is_own(source)
+    known: Mapping[str, Channel] = FIELDS.get(source.__name__, {}) if own else {}
+    is_sample = own and (source.__name__ == "Sample" or source.__name__.endswith("Channels"))
     channel = known.get(field) or (CHANNELS.get(field) if is_sample else None)
     if channel is not None:
         facts = ", ".join(part for part in (channel.unit if channel.unit != "1" else "", channel.frame) if part)

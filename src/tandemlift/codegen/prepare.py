@@ -1,7 +1,7 @@
 """The numbers of a flight or a pilot from the numbers of a mission, on another machine: `prepare`, in LLVM and in C.
 
-Both are made from the graph of the mission's assembly. While a guard of the graph fails, `prepare` does nothing: the
-mission needs code of its own.
+Both are made from the graph of the mission's assembly. While a guard of the graph fails, the mission needs code of its
+own: `prepare` returns the guard's number, and writes nothing in LLVM, and in C what is of no use.
 """
 
 from __future__ import annotations
@@ -11,10 +11,11 @@ from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from tandemlift.codegen.c.expressions import number
+from tandemlift.codegen.c.names import Names
 from tandemlift.codegen.c.source import SourceFile, Unit
 from tandemlift.codegen.c.statements import Statements
 from tandemlift.codegen.c.text import WIDTH, FunctionHead, comment, function
-from tandemlift.codegen.c.types import Names, leaf_paths
+from tandemlift.codegen.c.types import leaf_paths
 from tandemlift.codegen.number_facts import key_comment
 from tandemlift.compiler.tracer import LEAVES, Function, Module, Place, Symbol, symbols
 from tandemlift.core.types import rebuilt
@@ -115,7 +116,7 @@ class PrepareFile:
         lines = list[str]()
         for name, key in zip(self.members, self.traced.keys, strict=True):
             lines += [*comment(textwrap.wrap(key_comment(key, facts[key]), WIDTH)).splitlines(), f"double {name};"]
-        numbered = "\n * ".join(f"{i + 1}: one of {keys}" for i, keys in enumerate(guards)) or "there is none"
+        numbered = "\n * ".join(f"{i + 1}: {keys}" for i, keys in enumerate(guards)) or "there is none"
         rows = [f"    {self.file.prefix}{kind} {name}[{count}];" for name, kind, count in tables]
         words = {"MEMBERS": textwrap.indent("\n".join(lines), "    "), "GUARDS": numbered, "TABLES": "\n".join(rows)}
         return self.file.filled(f"{self.part}_prepare.h", **words)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from tandemlift.core.errors import InputError
+from tandemlift.core.errors import InputError, shown
 from tandemlift.core.refusals import Refusals
 from tandemlift.core.types import Array, flat, leaves, unflat
 from tandemlift.core.vector import ZERO, Absent, Quat
@@ -100,8 +101,8 @@ class Pilot:
             Thrust of every rotor [N] (4N,), the same array each time.
 
         Raises:
-            InputError: the measurement is not a float64 array of 16 numbers; or, without supervision, a number of it
-                or of the moment is not finite. No sample is taken then.
+            InputError: the measurement is not a float64 array of 16 numbers, or the moment not 3 numbers; or, without
+                supervision, a number of them is not finite. No sample is taken then.
         """
         try:
             self._measurement[:] = measurement
@@ -109,7 +110,7 @@ class Pilot:
             given = f"{getattr(measurement, 'dtype', type(measurement).__name__)} {np.shape(measurement)}"
             raise InputError(f"measurement is {given}: must be a float64 array of shape (16,)") from error
         if moment is not None or self._has_moment:
-            self._moment[:] = 0.0 if moment is None else moment
+            self._moment[:] = 0.0 if moment is None else _three(moment)
             self._has_moment = moment is not None
         requests = land, lift, stop, enabled
         if requests != self._last_requests:
@@ -134,3 +135,12 @@ class Pilot:
     def reset(self) -> None:
         """Start anew at t = 0."""
         self._numbers[:] = flat(self._start)
+
+
+def _three(moment: Any) -> Array:
+    """A caller's moment as an array."""
+    with suppress(TypeError, ValueError):
+        numbers = np.asarray(moment, dtype=float)
+        if numbers.shape == (3,):
+            return numbers
+    raise InputError(f"moment = {shown(moment)}: must be 3 numbers [N m], about the axes of the body")

@@ -99,7 +99,7 @@ def compile(
 
     what = load(mission, settings, controller)
     folder = Path(out) if out else Path("out") / f"{what.mission.name}-{target}"
-    how["platforms"] = how["platforms"].split(",") if how["platforms"] else None
+    how["platforms"] = None if how["platforms"] is None else how["platforms"].split(",")
     for path in compile_mission(what, target, folder, **how):
         echo(f"{path} ({path.stat().st_size / 1e3:.0f} kB)")
 

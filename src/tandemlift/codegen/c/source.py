@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from functools import cache
 from importlib.resources import files
 from typing import Any
 
 from tandemlift.codegen.c.expressions import number
+from tandemlift.codegen.c.names import UNCALLED, Names, identifier
 from tandemlift.codegen.c.text import wrapped
 from tandemlift.codegen.c.types import (
     Describe,
-    Names,
     Signature,
     Struct,
     Structs,
-    identifier,
+    is_own,
     parts_of,
     signature_of,
     type_name,
@@ -25,6 +26,10 @@ from tandemlift.compiler.tracer.structured import Laws, TracedLaw, calls_in, is_
 from tandemlift.core.files import __version__
 
 TEXTS = files("tandemlift") / "data" / "c"
+PARTS = ("pilot", "flight", "pilot_prepare", "flight_prepare")
+AROUND = ("helpers.c", "single.c", *(f"{part}.{end}" for part in PARTS for end in "ch"))  # texts of the files with laws
+HASH = "/*@HASH@*/"  # stays in texts until all of them are there
+GENERATED = frozenset(["exact_solve", "solve", "GUSTS", "LEGS", "PUSHES", "WALLS"])  # further names at file scope
 BLOCK = re.compile(r"^ *//if (\w+)\n(.*?)^ *//end \1\n", re.MULTILINE | re.DOTALL)
 
 
@@ -46,7 +51,7 @@ class Unit:
     def __init__(self, real: str, prefix: str = "", names: Names | None = None) -> None:
         self.real, self.prefix, self.laws = real, prefix, Laws()
         self.names = Names() if names is None else names
-        self.structs, self.texts, self.written = Structs(self.names), list[str](), set[int]()
+        self.structs, self.texts, self.written = Structs(self.names, text_words()), list[str](), set[int]()
         self._signatures: dict[int, Signature] = {}
         self._locals: dict[int, Names] = {}
 
@@ -69,7 +74,8 @@ class Unit:
         if number not in self._signatures:
             law = self.laws.all[number]
             calls = [self.signature(n).name for n in law.calls]
-            name = self.names.new(self.prefix + law_word(law.law))
+            kept = () if is_own(law.law) else text_words()
+            name = self.names.new(self.prefix + law_word(law.law), kept)
             self._locals[number] = Names(given=calls)
             self._signatures[number] = signature_of(law, name, self.structs, self._locals[number])
         return self._signatures[number]
@@ -116,6 +122,14 @@ class Unit:
         return self.real == "float" and self.laws.all[number].law.__module__.endswith(".elementary")
 
 
+@cache
+def text_words() -> frozenset[str]:
+    """All words of the code around laws: what is defined there is no name for a user's law or class."""
+    texts = "\n".join((TEXTS / name).read_text("utf-8") for name in AROUND)
+    code = re.sub(r"/\*.*?\*/", " ", re.sub(r"/\*@\w+@\*/", " ", texts), flags=re.DOTALL)
+    return GENERATED.union(UNCALLED.split(), re.findall(r"\b(?:mission_)?([A-Za-z]\w*)", code))
+
+
 def law_word(law: Any) -> str:
     """A law's name without leading underscores; elementary functions, whose names C has too, get a word before it."""
     plain = str(law.__name__).strip("_")
@@ -129,11 +143,10 @@ class SourceFile:
         mission: its name.
         single: whether it computes in single precision.
         step: of the mission [s].
-        digest: a hash of the mission.
     """
 
-    def __init__(self, mission: str, single: bool, step: float, digest: str = "") -> None:
-        self.mission, self.digest = mission, digest
+    def __init__(self, mission: str, single: bool, step: float) -> None:
+        self.mission = mission
         self.name = identifier(mission).lower()
         self.prefix = self.name + "_"
         self.unit = Unit("float" if single else "double")
@@ -141,7 +154,7 @@ class SourceFile:
 
     def anew(self) -> SourceFile:
         """Another file of the mission, with an empty unit."""
-        return SourceFile(self.mission, self.real == "float", self.step, self.digest)
+        return SourceFile(self.mission, self.real == "float", self.step)
 
     @property
     def real(self) -> str:
@@ -160,7 +173,7 @@ class SourceFile:
         while BLOCK.search(text):
             text = BLOCK.sub(lambda m: m[2] if m[1] in kept else "", text)
         words = {"STEP": number(self.step, self.real), "NAME": self.mission} | words
-        words |= {"VERSION": __version__, "HASH": self.digest}
+        words |= {"VERSION": __version__, "HASH": HASH}
         text = re.sub(r"\bmission_", self.prefix, text)
         text = re.sub(r"\bMISSION_", self.prefix.upper(), text)
         text = re.sub(r"\breal\b", self.real, text)
@@ -178,7 +191,7 @@ class SourceFile:
 
     def typedefs(self, roots: list[Struct], describe: Describe) -> str:
         """The definitions of public structs with comments, with the mission's name before theirs."""
-        return "\n".join(s.definition(self.prefix, self.real, describe) for s in self.public(roots))
+        return "\n".join(s.guarded(self.prefix, self.real, describe) for s in self.public(roots))
 
     def source(self, name: str, roots: list[Struct], has: Iterable[str] = (), used: str = "", **words: str) -> str:
         """A source: short names for public structs, the other structs, the unit's functions, and a text behind them.

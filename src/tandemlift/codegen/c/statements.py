@@ -11,9 +11,10 @@ from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 from tandemlift.codegen.c.expressions import ATOM, CHOSEN, UNARY, Expression, expression, literal
+from tandemlift.codegen.c.names import Names
 from tandemlift.codegen.c.source import Unit
 from tandemlift.codegen.c.text import Statement, token
-from tandemlift.codegen.c.types import Names, Struct, parts_of, type_name
+from tandemlift.codegen.c.types import Struct, parts_of, type_name
 from tandemlift.codegen.c.variables import Group, Variables
 from tandemlift.compiler.tracer import Graph
 from tandemlift.compiler.tracer.structured import as_symbol, calls_in, is_nested, nodes_of, numbers_in

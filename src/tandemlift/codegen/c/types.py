@@ -1,65 +1,18 @@
-"""Names and types of C: identifiers, structs for the named tuples of the laws, and signatures of functions."""
+"""Types of C: structs for the named tuples of the laws, and signatures of functions."""
 
 from __future__ import annotations
 
 import ast
 import inspect
-import itertools
 import re
 import textwrap
 from collections.abc import Callable, Iterable, Iterator
-from functools import cache
 from typing import Any, NamedTuple
 
+from tandemlift.codegen.c.names import Names, member_name
 from tandemlift.compiler.tracer import Symbol
 from tandemlift.compiler.tracer.structured import TracedLaw, is_nested, numbers_in
 from tandemlift.core.vector import is_set
-
-KEYWORDS = """auto bool break case char const continue default do double else enum extern false float for goto if inline
-int long register restrict return short signed sizeof static struct switch true typedef union unsigned void volatile
-while and catch class delete explicit export friend mutable namespace new not operator or private protected public
-template this throw try typename using virtual xor"""
-LIBRARY = """abs acos asin atan atan2 cbrt ceil cos cosh div erf exp exp2 expm1 fabs fdim floor fma fmax fmin fmod frexp
-gamma hypot isfinite isinf isnan j0 j1 jn ldexp lgamma log log10 log1p log2 lrint lround memcpy memset modf nan
-nearbyint pow remainder rint round scalbn signbit sin sinh sqrt tan tanh tgamma trunc y0 y1 yn size_t int32_t int64_t
-uint32_t uint64_t to_integer bits_of number_of shifted_right"""
-NO_MEMBER = frozenset(KEYWORDS.split())
-RESERVED = NO_MEMBER | {"shared"} | set(LIBRARY.split())  # `shared`: of the parts of a function (`text`)
-
-
-@cache
-def identifier(name: str) -> str:
-    """A name as an identifier of C: no leading underscores, no dots, dashes or other letters."""
-    plain = re.sub(r"\W", "_", name, flags=re.ASCII).strip("_") or "value"
-    return f"_{plain}"[plain[0].isalpha() :]
-
-
-def _numbered(name: str) -> Iterator[str]:
-    return (f"{name}_{i}" for i in itertools.count(2))
-
-
-class Names:
-    """Identifiers in one scope, each given once; `given`: those of an outer scope that it may not hide."""
-
-    def __init__(self, given: Iterable[str] = ()) -> None:
-        self._taken, self._count = set(given), 0
-
-    def knows(self, name: str) -> bool:
-        """Whether a name is taken."""
-        return name in RESERVED or name in self._taken
-
-    def new(self, wish: str) -> str:
-        """The name that is wished for, with a number behind it if it is taken."""
-        plain = identifier(wish)
-        found = plain if not self.knows(plain) else next(n for n in _numbered(plain) if not self.knows(n))
-        self._taken.add(found)
-        return found
-
-    def numbered(self, wish: str) -> str:
-        """A name with a number behind it."""
-        self._count += 1
-        return self.new(f"{wish}{self._count}")
-
 
 BY_VALUE = 4  # numbers of a struct that is passed by value; larger ones are passed by address
 
@@ -92,10 +45,20 @@ class Struct(NamedTuple):
         about = describe(self.source, "")
         return "\n".join([*([about] if about else []), "typedef struct {", *lines, f"}} {prefix}{self.name};"])
 
+    def guarded(self, prefix: str, real: str, describe: Describe) -> str:
+        """The typedef in a header, of which a source may include several; C99 has no typedef twice."""
+        guard = f"{prefix.upper()}TYPE_{self.name}"
+        return f"#ifndef {guard}\n#define {guard}\n{self.definition(prefix, real, describe)}\n#endif"
+
     def _note(self, member: Member, describe: Describe) -> str:
         """The comment behind a member: its own, or that of its type."""
         text = describe(self.source, member.name.removesuffix("_"))
         return f" /* {text} */" if text else ""
+
+
+def is_own(source: Any) -> bool:
+    """Whether a class or a law is of this package, and not of a user."""
+    return str(source.__module__).startswith("tandemlift.")
 
 
 def type_name(kind: Any, real: str, prefix: str = "") -> str:
@@ -118,12 +81,6 @@ def parts_of(value: Any) -> Iterator[tuple[str, Any]]:
             yield (f"r[{i}]" if is_set(value) else member_name(names[i]) if names else f"item{i}"), part
 
 
-def member_name(field: str) -> str:
-    """The name of a member."""
-    plain = identifier(field)
-    return plain + "_" * (plain in NO_MEMBER)
-
-
 def leaf_paths(value: Any) -> Iterator[tuple[str, Any]]:
     """The numbers of a nested value, with their access in C, as in `.position.x`."""
     if not is_nested(value):
@@ -135,11 +92,28 @@ def leaf_paths(value: Any) -> Iterator[tuple[str, Any]]:
 
 
 class Structs:
-    """The structs of a file, made on first use; those that a struct contains precede it."""
+    """The structs of a file, made on first use; those that a struct contains precede it.
 
-    def __init__(self, names: Names) -> None:
-        self.names, self.all = names, dict[Any, Struct]()
+    Args:
+        names: at file scope.
+        kept: names that no class of a user gets.
+    """
+
+    def __init__(self, names: Names, kept: Iterable[str] = ()) -> None:
+        self.names, self.kept, self.all = names, set(kept), dict[Any, Struct]()
+        self.elsewhere = dict[Any, str]()
         self._known = dict[int, tuple[Any, Struct]]()  # by id, which a value keeps as long as it is here
+
+    def keep(self, value: Any) -> None:
+        """Keep the names of the package's own classes in a value, so that a user's do not get them before."""
+        if is_nested(value):
+            self.kept |= {type(value).__name__} if is_own(type(value)) else set()
+            for _, part in parts_of(value):
+                self.keep(part)
+
+    def agree(self, structs: Iterable[Struct]) -> None:
+        """From now on give types the names that they have among structs of another header, and other types others."""
+        self.elsewhere = {(struct.source, struct.members): struct.name for struct in structs}
 
     def of(self, value: Any) -> Any:
         """The type of a value: a `Struct`, or the letter of a number's type."""
@@ -150,7 +124,9 @@ class Structs:
         members = tuple(Member(access, self.of(part)) for access, part in parts_of(value))
         key = type(value), members
         if key not in self.all:
-            name = self.names.new(type(value).__name__ if hasattr(value, "_fields") else "Items")
+            wish = type(value).__name__ if hasattr(value, "_fields") else "Items"
+            kept = set() if key in self.elsewhere else {*self.elsewhere.values()}
+            name = self.names.new(self.elsewhere.get(key, wish), kept if is_own(type(value)) else kept | self.kept)
             self.all[key] = Struct(name, members, len(list(numbers_in(value))), is_set(value), type(value))
         self._known[id(value)] = value, self.all[key]
         return self.all[key]

@@ -1,5 +1,5 @@
 /* The flight of the mission "/*@NAME@*/": pilot, rotors, sensors, body, person.
- * Written by tandemlift /*@VERSION@*/ from a mission with the hash /*@HASH@*/; see README.md. */
+ * Written by tandemlift /*@VERSION@*/ from a mission and laws with the hash /*@HASH@*/; see README.md. */
 #ifndef MISSION_FLIGHT_H
 #define MISSION_FLIGHT_H
 

@@ -1,9 +1,13 @@
 /* The flight's numbers from those of the mission "/*@NAME@*/".
- * Written by tandemlift /*@VERSION@*/ from a mission with the hash /*@HASH@*/; see README.md. */
+ * Written by tandemlift /*@VERSION@*/ from a mission and laws with the hash /*@HASH@*/; see README.md. */
 #ifndef MISSION_FLIGHT_PREPARE_H
 #define MISSION_FLIGHT_PREPARE_H
 
 #include "mission_flight.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /* Numbers of the mission, each by its key: unit, meaning, bounds. */
 typedef struct {
@@ -19,8 +23,13 @@ typedef struct {
     mission_Inputs inputs;
 } mission_Prepared;
 
-/* 0, or 1 and the number of the first condition that other code would need:
+/* 0, or the number of the first condition that does not hold: then the numbers need other code, and `prepared` is of no
+ * use. A condition depends on keys:
  * /*@GUARDS@*/ */
 int mission_flight_prepare(const mission_FlightNumbers *numbers, mission_Prepared *prepared);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

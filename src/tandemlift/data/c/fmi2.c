@@ -20,7 +20,7 @@ typedef struct {
 
 static Status status_of(FmuResult result)
 {
-    return result == FMU_OK ? OK : result == FMU_OVER ? DISCARD : ERROR;
+    return result == FMU_OK ? OK : result == FMU_DISCARD ? DISCARD : ERROR;
 }
 
 static void send(FmuInstance *instance, bool is_error, const char *text)

@@ -22,7 +22,7 @@ static void send(FmuInstance *instance, bool is_error, const char *text)
 
 static Status status_of(FmuResult result)
 {
-    return result == FMU_OK ? OK : result == FMU_OVER ? DISCARD : ERROR;
+    return result == FMU_OK ? OK : result == FMU_DISCARD ? DISCARD : ERROR;
 }
 
 static Status refused(Instance c, const char *name)

@@ -7,6 +7,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+//if pilot
+#define NOT_FINITE \
+    "at %.17g s, a number of position, velocity, attitude, rates, push_force or push_moment is not finite: without " \
+    "supervision the pilot takes no such sample"
+
+//end pilot
 /* Inputs before an importer sets them. */
 static const double INPUT[FMU_INPUTS] = {/*@STARTS@*/};
 //if flight
@@ -181,7 +187,10 @@ bool fmu_update(FmuInstance *instance)
         mission_PilotData pilot = model->pilot;
         mission_PilotInput input;
         memcpy(&input, model->inputs, sizeof input);
-        mission_pilot_step(&pilot, &input, model->outputs);
+        if (!mission_pilot_step(&pilot, &input, model->outputs)) {
+            fmu_report(instance, true, NOT_FINITE, model->time);
+            return false;
+        }
     }
 //end pilot
     model->is_current = true;
@@ -201,8 +210,8 @@ FmuResult fmu_begin(FmuInstance *instance)
     return FMU_OK;
 }
 
-/* One step of the mission. */
-static void advance(FmuModel *model)
+/* One step of the mission. False, and nothing done, if a pilot is given numbers that are not finite. */
+static bool advance(FmuModel *model)
 {
 //if flight
     mission_Sample sample;
@@ -212,11 +221,12 @@ static void advance(FmuModel *model)
     if (mission_flight_step_with(&model->flight, &external, &sample) && mission_flight_is_over(&model->flight)) {
         put_outputs(model, &sample); /* no further sample can be looked at */
     }
+    return true;
 //end flight
 //if pilot
     mission_PilotInput input;
     memcpy(&input, model->inputs, sizeof input);
-    mission_pilot_step(&model->pilot, &input, model->outputs);
+    return mission_pilot_step(&model->pilot, &input, model->outputs);
 //end pilot
 }
 
@@ -235,7 +245,7 @@ FmuResult fmu_step(FmuInstance *instance, double time, double size)
             FMU_STEP, FMU_STEP_TOLERANCE);
         return failed(instance);
     }
-    if (!(fabs(here - (double)model->steps) <= FMU_TIME_TOLERANCE)) {
+    if (!(fabs(here - (double)model->steps) < FMU_TIME_TOLERANCE)) {
         fmu_report(instance, true,
             "step-off-sample-time: a step from %.17g s, but %.17g s are reached (within %g of mission.step = %.17g s)",
             time, model->time, FMU_TIME_TOLERANCE, FMU_STEP);
@@ -245,9 +255,14 @@ FmuResult fmu_step(FmuInstance *instance, double time, double size)
         if (fmu_is_over(instance)) {
             fmu_report(instance, false, "the flight is over since %.17g s: by mission.duration, a crash or divergence",
                 model->time);
-            return FMU_OVER;
+            return FMU_DISCARD;
         }
-        advance(model);
+        if (!advance(model)) {
+//if pilot
+            fmu_report(instance, false, NOT_FINITE, model->time);
+//end pilot
+            return FMU_DISCARD;
+        }
         model->steps++;
         model->time = model->start + (double)model->steps * FMU_STEP;
         model->is_current = false;

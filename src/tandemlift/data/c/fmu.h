@@ -1,5 +1,5 @@
 /* The functional mock-up unit (FMU) of the mission "/*@NAME@*/": an instance, for both versions of FMI. Written by
- * tandemlift /*@VERSION@*/ from a mission with the hash /*@HASH@*/. */
+ * tandemlift /*@VERSION@*/ from a mission and laws with the hash /*@HASH@*/. */
 #ifndef MISSION_FMU_H
 #define MISSION_FMU_H
 
@@ -17,7 +17,7 @@
 #define FMU_TOKEN "/*@TOKEN@*/" /* of this description and these sources */
 #define FMU_STEP /*@DOUBLE_STEP@*/ /* s, from one sample to the next: mission.step */
 #define FMU_STEP_TOLERANCE 1e-6 /* of FMU_STEP: by so much the length of a step may be off a multiple of it */
-#define FMU_TIME_TOLERANCE 1e-3 /* of FMU_STEP: by so much the time of a step may be off the samples */
+#define FMU_TIME_TOLERANCE 0.5 /* of FMU_STEP: nearer to this sample than to others; sums of steps drift */
 #define FMU_PARAMETERS /*@PARAMETERS@*/
 #define FMU_INPUTS /*@INPUTS@*/
 #define FMU_OUTPUTS /*@OUTPUTS@*/
@@ -30,7 +30,7 @@
 #endif
 
 typedef enum { FMU_INSTANTIATED, FMU_INITIALIZING, FMU_STEPPING, FMU_TERMINATED, FMU_FAILED } FmuMode;
-typedef enum { FMU_OK, FMU_OVER, FMU_ERROR } FmuResult;
+typedef enum { FMU_OK, FMU_DISCARD, FMU_ERROR } FmuResult;
 
 /* All that changes: a copy of it is a saved state. Value references count from 1 over parameters, inputs, outputs;
  * 0 is the time. */
@@ -71,7 +71,8 @@ void fmu_reset(FmuInstance *instance);
 FmuResult fmu_initialize(FmuInstance *instance, double start);
 FmuResult fmu_begin(FmuInstance *instance);
 
-/* From the time of an importer by a step of its own [s], which must be on the grid of the mission's steps. */
+/* From the time of an importer by a step of its own [s], which must be on the grid of the mission's steps. Discarded from
+ * the step on that cannot be taken: the flight is over, or a pilot is given numbers that are not finite. */
 FmuResult fmu_step(FmuInstance *instance, double time, double size);
 
 /* Whether no further step can be taken: the mission's duration is over, or the flight crashed or diverged. */

@@ -18,9 +18,16 @@ void mission_pilot_start(mission_PilotData *pilot)
     *pilot = START;
 }
 
-void mission_pilot_step(mission_PilotData *pilot, const mission_PilotInput *input, real thrusts[MISSION_ROTORS])
+bool mission_pilot_step(mission_PilotData *pilot, const mission_PilotInput *input, real thrusts[MISSION_ROTORS])
 {
     /*@SET@*/ wanted;
+//if refuses
+    const real zero = /*@ZERO@*/; /* or NaN */
+    if (!(zero == 0)) {
+        return false; /* the memory would never be finite again */
+    }
+//end refuses
     sample(pilot, input, MISSION_STEP, &wanted);
     memcpy(thrusts, wanted.r, sizeof wanted.r);
+    return true;
 }
