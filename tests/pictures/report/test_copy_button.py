@@ -75,7 +75,7 @@ def test_the_page_fits_the_screen_and_every_button_can_be_pressed(browser, path,
     page = opened(browser, path, viewport=SIZES[size])
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
     boxes = [button.bounding_box() for button in page.locator(".command button").all()]
-    assert len(boxes) == 11
+    assert len(boxes) == 1 + page.locator(".worst tbody tr").count() > 4
     assert all(box["x"] >= 0.0 and box["x"] + box["width"] <= SIZES[size]["width"] for box in boxes)
     assert all(box["height"] >= 28.0 and box["width"] >= 40.0 for box in boxes)
     page.context.close()
