@@ -19,7 +19,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 LAWS: list[Callable[..., Any]] = []
 STAIRCASES: list[Callable[..., Any]] = []  # laws that round, with the derivative of a straight line
-REPLACED: list[tuple[type, Callable[..., Any]]] = []  # classes with laws registered later, or by another package
+REPLACED: list[tuple[Choice, type, Callable[..., Any]]] = []  # laws registered later, or by another package
 
 
 class Elementwise:
@@ -101,12 +101,17 @@ class Choice:
 
         def keep(function: F) -> F:
             if kind in self.table or _package(kind) != _package(function):
-                REPLACED.append((kind, function))
+                REPLACED.append((self, kind, function))
             self.table[kind] = law(function) if compiled else function
             self.interpreted.discard(kind) if compiled else self.interpreted.add(kind)
             return function
 
         return keep
+
+
+def replaced() -> tuple[tuple[type, Callable[..., Any]], ...]:
+    """Classes whose law was registered in place of another one, or by another package than theirs, with that law."""
+    return tuple((kind, function) for choice, kind, function in REPLACED if choice.table.get(kind) is function)
 
 
 def _package(made: Any) -> str:

@@ -16,7 +16,7 @@ from tandemlift.core.types import Progress, leaves, unflat
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, MissionLike, mission_of
 from tandemlift.missions.recording import engine_of
-from tandemlift.parts.controllers import explained
+from tandemlift.parts.controllers.registry import explained
 from tandemlift.simulation.caller_values import count_of
 from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.plan import FlightPlan

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from tandemlift.core.caching import LastUsed
-from tandemlift.core.law import REPLACED
+from tandemlift.core.law import replaced
 from tandemlift.core.types import layout_and_numbers
 from tandemlift.core.vector import ZERO, each, layout
 from tandemlift.engines.registry import engine_named
@@ -109,7 +109,7 @@ class FlightPlan:
     @cached_property
     def loop_code(self) -> LoopCode:
         """The compiled loops of this variant."""
-        key = self.variant, len(REPLACED)
+        key = self.variant, replaced()
         return LOOP_CODE.of(key, lambda: LoopCode(self.model, self.given, fuses=self.mission.mission.fma))
 
     def start(self) -> FlightStart:

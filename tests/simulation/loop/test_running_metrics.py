@@ -11,6 +11,8 @@ import pytest
 from tandemlift.core.vector import ZERO, Absent, Vec3, each
 from tandemlift.parts.guidance.estimate_errors import NO_ERRORS, PushErrors, error_metrics, with_errors
 from tandemlift.parts.guidance.guidance import ThrustFraction
+from tandemlift.parts.rotors.allocation import ConstrainedAllocation
+from tandemlift.parts.rotors.rotor_faults import RotorFaults
 from tandemlift.parts.rotors.rotors import Rotors
 from tandemlift.simulation.loop.running_metrics import (
     EMPTY,
@@ -29,8 +31,11 @@ def test_effort_counts_only_while_the_grip_is_held():
     assert effort == pytest.approx((4.0, 20.0, 4.0))
 
 
-def saturated(running):
-    """Whether a step counts as saturated whose first rotor is within its limits and whose second one is at one."""
+def saturated(running, known_from=None):
+    """Whether a step at 1 s counts as saturated whose first rotor is within its limits and whose second one is at one.
+
+    `known_from`: time [s] from which on the pilot knows that the second one has failed.
+    """
     rotors = Rotors(**{**dict.fromkeys(Rotors._fields), "max_thrust": each(2)(5.0, 5.0)})
     names = ("position", "velocity", "euler", "rates", "moment", "push_force", "push_moment")
     references = ("reference_position", "reference_velocity", "reference_euler")
@@ -38,13 +43,19 @@ def saturated(running):
     guidance = SimpleNamespace(running=ThrustFraction(running), channels=Absent())
     decision = SimpleNamespace(thrusts=each(2)(1.0, 0.0), guidance=guidance)
     plant = SimpleNamespace(walls=Absent(), frame=None)
-    state = SimpleNamespace(near=Absent(), state=None, person=Absent(), metrics=EMPTY)
-    model = SimpleNamespace(rotors=rotors, plant=plant, flight_state=state)
-    return contribution_of(model, SimpleNamespace(decision=decision, estimates=Absent()), sample, Absent()).saturated
+    memory = SimpleNamespace(detection=Absent())
+    state = SimpleNamespace(near=Absent(), state=None, person=Absent(), metrics=EMPTY, memory=memory)
+    known = Absent() if known_from is None else RotorFaults(each(2)(9.0, known_from), each(2)(0.0, 0.0))
+    allocation = ConstrainedAllocation(None, None, None, None, known)
+    pilot = SimpleNamespace(allocation=allocation, detection=Absent())
+    model, output = SimpleNamespace(rotors=rotors, plant=plant, flight_state=state, pilot=pilot), SimpleNamespace()
+    output.decision, output.estimates = decision, Absent()
+    return contribution_of(model, output, sample, Absent(), 1.0).saturated
 
 
 def test_rotors_that_stand_still_are_not_saturated():
     assert (saturated(1.0), saturated(0.0)) == (1.0, 0.0)
+    assert (saturated(1.0, known_from=0.5), saturated(1.0, known_from=2.0)) == (0.0, 1.0)
     assert [at_limit(f, 5.0) for f in (-1.0, 0.0, 1e-9, 4.9, 5.0, 6.0)] == [1.0, 1.0, 0.0, 0.0, 1.0, 1.0]
 
 

@@ -25,7 +25,8 @@ from tandemlift.core.types import Progress
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, load_mission
 from tandemlift.missions.loading import MissionTemplate
-from tandemlift.parts.controllers import CONTROLLERS, Controller, controller, explained
+from tandemlift.parts.controllers import CONTROLLERS, Controller, controller
+from tandemlift.parts.controllers.registry import explained
 
 
 class Entry(NamedTuple):

@@ -114,7 +114,7 @@ def _selected(
 
 def fly_mission(mission: Mission, engine: str | None) -> Flight:
     """Fly a mission, with a progress bar; the error of a user's own controller names its line."""
-    from tandemlift.parts.controllers import explained
+    from tandemlift.parts.controllers.registry import explained
     from tandemlift.simulation.fly import fly
     from tandemlift.simulation.plan import FlightPlan
 

@@ -24,7 +24,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tandemlift.core import law
+from tandemlift.core.law import replaced
 from tandemlift.core.types import is_value
 
 MAGIC = b"tandemlift machine code 1\n"
@@ -191,8 +191,8 @@ def key_of(value: Any, *more: Any, files: Iterable[Path] = ()) -> str:
     """
     from tandemlift.compiler.machine_code.machine import processor
 
-    own, replaced = classes(value), {kind for kind, _ in law.REPLACED}
-    if own & replaced or not all(c.__module__.startswith("tandemlift.") for c in own):
+    own, others = classes(value), {kind for kind, _ in replaced()}
+    if own & others or not all(c.__module__.startswith("tandemlift.") for c in own):
         return ""
     versions = sys.version_info[:2], metadata.version("llvmlite"), processor()
     digest = hashlib.sha256(f"{versions} {described(value)} {more}".encode())

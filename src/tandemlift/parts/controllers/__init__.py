@@ -31,7 +31,7 @@ from tandemlift.parts.controllers.interface import (
     NoMemory,
     control,
 )
-from tandemlift.parts.controllers.registry import CONTROLLERS, Controller, error_text, explained, file_of, register
+from tandemlift.parts.controllers.registry import CONTROLLERS, Controller, error_text, file_of, register
 from tandemlift.parts.controllers.user_controller import controller, load_controller
 from tandemlift.parts.mechanics.rigid_body import UP, State, Wrench, apply_inertia, gyroscopic, inertia_value
 from tandemlift.parts.mechanics.rotation import (
@@ -84,7 +84,6 @@ __all__ = [
     "error_text",
     "euler_from_quaternion",
     "euler_rates_from_rates",
-    "explained",
     "file_of",
     "geometric",
     "gyroscopic",
