@@ -19,7 +19,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 LAWS: list[Callable[..., Any]] = []
 STAIRCASES: list[Callable[..., Any]] = []  # laws that round, with the derivative of a straight line
-REPLACED: list[tuple[Choice, type, Callable[..., Any]]] = []  # laws registered later, or by another package
+REPLACED: list[tuple[Choice, type, Callable[..., Any]]] = []  # in place of another law, or of another package
 
 
 class Elementwise:
@@ -100,7 +100,7 @@ class Choice:
         """Register a law for first arguments of type `kind`; `compiled=False` for any Python function instead."""
 
         def keep(function: F) -> F:
-            if kind in self.table or _package(kind) != _package(function):
+            if kind in self.table or _package(self) == _package(kind) != _package(function):
                 REPLACED.append((self, kind, function))
             self.table[kind] = law(function) if compiled else function
             self.interpreted.discard(kind) if compiled else self.interpreted.add(kind)
@@ -110,7 +110,7 @@ class Choice:
 
 
 def replaced() -> tuple[tuple[type, Callable[..., Any]], ...]:
-    """Classes whose law was registered in place of another one, or by another package than theirs, with that law."""
+    """Classes with a law in place of another one, or from another package than class and choice, and that law."""
     return tuple((kind, function) for choice, kind, function in REPLACED if choice.table.get(kind) is function)
 
 
