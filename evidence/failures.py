@@ -1,4 +1,4 @@
-"""The failures among the flights of a study, each with its row, and the bound on their probability.
+"""The failures and findings among the flights of a study, each with its row, and the bound on a failure's probability.
 
 python evidence/failures.py FOLDER
 
@@ -9,6 +9,7 @@ row again.
 from __future__ import annotations
 
 import argparse
+import json
 from collections import Counter
 from pathlib import Path
 
@@ -18,8 +19,7 @@ from tandemlift.analysis.studies.design.settings import REFUSED
 from tandemlift.analysis.studies.execution.random_flights import probability_bound
 from tandemlift.core.phases import FAILURES
 
-SHOWN = 20  # rows of a finding
-COLUMNS = ["row", "outcome", "reason", "finding_kinds"]
+COLUMNS = ["row", "outcome", "reason", "findings"]
 
 
 def main() -> None:
@@ -34,15 +34,16 @@ def main() -> None:
     failed = [row for row in rows if row["outcome"] in (*FAILURES, REFUSED)]
     for row in failed:
         print(f"row {row['row']}: {row['outcome']}: {row['reason']}")
+    kinds = Counter[str]()
+    for row in rows:
+        findings = json.loads(row["findings"] or "[]")
+        kinds.update({kind for _, kind, _ in findings})
+        for time, kind, text in findings:
+            print(f"row {row['row']}, at {time:g} s: {kind}: {text}")
     bound = probability_bound(len(failed), len(rows))
     print(f"{len(failed)} of {len(rows)} flights failed: a probability of at most {bound:.3g}, with 95 % confidence")
     print(f"outcomes: {dict(Counter(row['outcome'] for row in rows))}")
-    with_finding: dict[str, list[int]] = {}
-    for row in rows:
-        for kind in filter(None, (row["finding_kinds"] or "").split(",")):
-            with_finding.setdefault(kind, []).append(row["row"])
-    for kind, numbers in with_finding.items():
-        print(f"finding {kind}: {len(numbers)} flights, rows {', '.join(map(str, numbers[:SHOWN]))}")
+    print(f"flights with findings: {dict(kinds)}")
 
 
 if __name__ == "__main__":
