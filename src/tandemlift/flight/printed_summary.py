@@ -45,22 +45,45 @@ def summary_lines(flight: Flight) -> Iterator[str]:
             yield f"  {label:36}{value} {unit}".rstrip()
     for at, what in m["events"]:
         yield f"  {at:.2f} s: {what}"
+    for note in notes(flight):
+        yield f"  note: {note}"
+
+
+def notes(flight: Flight) -> Iterator[str]:
+    """What a reader should know of a flight that is no finding: thrusts of ideal actuators that no rotor gives."""
+    thrusts, most = _thrusts_and_limits(flight, "ideal")
+    beyond = ((thrusts < 0.0) | (thrusts > most)).any(axis=1)
+    if beyond.any():
+        low, high = (f"{x:+,.0f}".replace("-", "−") for x in (np.nanmin(thrusts), np.nanmax(thrusts)))
+        give = " or ".join(f"{x:.3g}" for x in sorted(set(most.tolist())))
+        yield (
+            f"ideal actuators: beyond what these quadrotors give (0 to {give} N a rotor), from {low} to {high} N, "
+            f"in {_percent(beyond.mean())} of the logged samples"
+        )
+
+
+def _thrusts_and_limits(flight: Flight, model: str) -> tuple[Array, Array]:
+    """The logged thrusts (T, R) and largest ones (R) [N] of rotors of a model; no samples, if the flight has others."""
+    if "rotor_thrusts" in flight and "vehicle" in flight.mission and flight.mission["actuators"]["model"] == model:
+        thrusts, most = flight["rotor_thrusts"], np.repeat([q.thrust_limit for q in flight.vehicle.quadrotors], 4)
+        if thrusts.shape[-1] == len(most) and np.isfinite(thrusts).any():
+            return thrusts, most
+    return np.empty((0, 1)), np.ones(1)
 
 
 def _largest_thrust(flight: Flight) -> str:
-    """The largest thrust of a rotor beside its limit; '' of a flight without vehicle, or of ideal rotors."""
-    if "rotor_thrusts" not in flight or "vehicle" not in flight.mission:
-        return ""
-    if flight.mission["actuators"]["model"] != "rotors":  # without a limit
-        return ""
-    thrusts = flight["rotor_thrusts"]
-    most = np.repeat([q.thrust_limit for q in flight.vehicle.quadrotors], 4)
-    if thrusts.shape[-1] != len(most) or not np.isfinite(thrusts).any():
+    """The largest thrust of a rotor beside its limit; "" of a flight without vehicle, or of ideal rotors."""
+    thrusts, most = _thrusts_and_limits(flight, "rotors")
+    if not len(thrusts):
         return ""
     largest = np.nanmax(thrusts, axis=0)
     k = int(np.argmax(largest / most))
     share = f"{largest[k]:8.2f} N of {most[k]:.2f} N ({largest[k] / most[k]:.0%})"
     return f"{share}, rotor {k % 4 + 1} of quadrotor {k // 4 + 1}"
+
+
+def _percent(share: float) -> str:
+    return "less than 0.1 %" if share < 1e-3 else f"{100.0 * share:.3g} %"
 
 
 def _rms(values: Array) -> float:

@@ -79,9 +79,10 @@ CHECKS = (
     ),
     FlightCheck(
         "start",
-        "speed and rates; moment and tilt that the controller commands at the start by the pseudo-inverse",
+        "speed and rates; moment and tilt that the controller, linear about hover, commands at the start by the "
+        "pseudo-inverse",
         "5 m/s (of ideal rotors 10 m/s); 20 rad/s, and what the rotors stop in the air within 0.35 rad (yaw: 2 rad); 4 "
-        "times what the rotors can give in hover; 0.4 rad",
+        "times the rotors' moment in hover at which the first one reaches a limit; 0.4 rad",
         "m/s, rad/s, N m, rad",
         "",
         "`initial`, the controller's gains, `allocation.method`",

@@ -16,7 +16,7 @@ from tandemlift.core.types import Array, flat, unflat
 from tandemlift.core.vector import ZERO, vec3
 from tandemlift.parts.controllers import CONTROLLERS, control
 from tandemlift.parts.controllers.interface import NO_DISTURBANCE, ControllerTable, Measured
-from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rigid_body import InitialTable, State
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
 from tandemlift.parts.mechanics.trajectories import Reference, Trajectory
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -53,6 +53,13 @@ class ControllerResponse(NamedTuple):
 def controller_response(controller: ControllerTable, vehicle: Vehicle, step: float) -> ControllerResponse | None:
     """The response of a controller, sampled every step [s]; None if its law does not return numbers at hover."""
     return _response(controller, CONTROLLERS[controller.name].start, vehicle, step)
+
+
+def first_command(controller: ControllerTable, vehicle: Vehicle, step: float, start: InitialTable) -> Array:
+    """Thrust [N] and moments [N m] (4) that a controller commands at a start, with the reference at rest at 0."""
+    gains, memory = CONTROLLERS[controller.name].start(controller, vehicle, step)
+    motion = np.concatenate([start.position, start.velocity, start.euler, start.rates, np.zeros(3)])
+    return _answer(gains, memory, motion, np.array(flat(memory), dtype=float))[:4]
 
 
 @cached

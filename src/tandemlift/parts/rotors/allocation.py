@@ -197,10 +197,11 @@ def weighted_rows(effect: NDArray[np.float64], weights: NDArray[np.float64]) -> 
 
 def wrench_scale(effect: NDArray[np.float64]) -> Wrench:
     """1 / row rms of the effect B (4 × n): makes the four components of a wrench comparable (`achieved_fraction`)."""
-    return _as_wrench(weights_of(effect, np.ones(4)))
+    return wrench_of(weights_of(effect, np.ones(4)))
 
 
-def _as_wrench(four: NDArray[np.float64]) -> Wrench:
+def wrench_of(four: NDArray[np.float64]) -> Wrench:
+    """Four numbers, thrust, roll, pitch, yaw, as a wrench."""
     thrust, *moment = four
     return Wrench(number(thrust), vec3(moment))
 
@@ -224,7 +225,7 @@ def _inverse(vehicle: Vehicle, weights: tuple[tuple[float, ...], ...]) -> Mixer:
 @cached
 def _weighted(vehicle: Vehicle, priorities: tuple[float, ...]) -> tuple[Mixer, Wrench]:
     weights = weights_of(vehicle.effect, priorities)
-    return mixer_from(weighted_rows(vehicle.effect, weights)), _as_wrench(weights)
+    return mixer_from(weighted_rows(vehicle.effect, weights)), wrench_of(weights)
 
 
 def start_allocation(

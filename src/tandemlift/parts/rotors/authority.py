@@ -102,8 +102,9 @@ def moment_checks(hover: HoverFacts, loads: Sequence[VehicleLoads]) -> Iterator[
         worst = max(loads, key=lambda load: float(load.about[i]))
         value, limit = float(worst.about[i]), float(usable[i])
         text = (
-            f"{_at(worst.when)}wind, disturbance and pushes exert a {axis} moment of {value:.3g} N m, and the "
-            f"rotors give {authority[i]:.3g} N m in hover, of which {limit:.3g} N m leaves {CONTROL:.0%} for control: "
+            f"{_at(worst.when)}wind, disturbance and pushes exert a {axis} moment of {value:.3g} N m, and by "
+            f"allocation.weights the rotors give {authority[i]:.3g} N m in hover, of which {limit:.3g} N m leaves "
+            f"{CONTROL:.0%} for control: "
             "the vehicle overturns or rotates away; lower disturbance.moment, the wind, or the push and its lever arm"
         )
         yield judged("moment", value, limit, "N m", text, subject=axis, near=0.3)

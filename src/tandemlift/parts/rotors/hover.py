@@ -6,14 +6,18 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tandemlift.core.caching import cached
 from tandemlift.core.types import GRAVITY, Array
+from tandemlift.core.vector import set_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import PlantTable
-from tandemlift.parts.rotors.allocation import AllocationTable
+from tandemlift.parts.rotors.allocation import AllocationState, AllocationTable, mixer_from, weighted_rows, wrench_of
 from tandemlift.parts.rotors.rotor_faults import FaultTable
 from tandemlift.parts.rotors.rotors import ActuatorsTable
+from tandemlift.parts.rotors.thrust_limit_solver import BoundedProblem, limited_thrusts
 
 CONTROL = 0.15  # of the largest moment, reserved for control, as supervision.checks.thrust_fraction does for the thrust
+HELD = 1e4  # weight of what is held against the moment that is made as large as possible: held to 1e-6 of it
 
 
 class HoverFacts(NamedTuple):
@@ -106,6 +110,15 @@ class HoverFacts(NamedTuple):
         return np.minimum(self._room(column), self._room(-column))
 
     @property
+    def largest_moments(self) -> Array:
+        """The largest moment [N m] about each body axis, either way, that rotors within limits can exert in hover (3).
+
+        By any thrusts whose sum is the weight and whose other two moments are zero: `authority` is what the mission's
+        allocation makes of it.
+        """
+        return np.array(_largest_moments(self.vehicle, tuple(self.most.tolist()), self.weight))
+
+    @property
     def usable_authority(self) -> Array:
         """`authority` less what is reserved for control [N m] (3)."""
         return (1.0 - CONTROL) * self.authority
@@ -125,3 +138,19 @@ class HoverFacts(NamedTuple):
         hover = self.thrusts.ravel()
         up, down = np.maximum(most - hover, 0.0)[:, None], np.maximum(hover, 0.0)[:, None]
         return (np.where(column > 0.0, up, down) / np.maximum(np.abs(column), 1e-12)).min(axis=0)
+
+
+@cached
+def _largest_moments(vehicle: Vehicle, most: tuple[float, ...], weight: float) -> list[float]:
+    effect, limits = vehicle.effect, np.repeat(most, 4)
+    top, none = set_of(limits.tolist()), set_of([0.0] * len(limits))
+    found = np.empty((2, 3))
+    for way, axis in np.ndindex(2, 3):
+        weights = np.where(np.arange(4) == axis + 1, 1.0, HELD)
+        wanted = np.where(weights == 1.0, (1 - 2 * way) * np.abs(effect) @ limits, [weight, 0.0, 0.0, 0.0])
+        problem = BoundedProblem(
+            mixer_from(weighted_rows(effect, weights)), wrench_of(weights), wrench_of(wanted), none, top
+        )
+        thrusts = limited_thrusts(problem, AllocationState(none, none), 64 * len(limits))[0].thrusts
+        found[way, axis] = abs(effect[axis + 1] @ np.array(tuple(thrusts)))
+    return [float(x) for x in found.min(axis=0)]

@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import FLIGHT_FILE
 from tandemlift.core.types import Progress
+from tandemlift.flight.printed_summary import notes
 from tandemlift.flight.record import Flight, counted_until
 from tandemlift.missions import built_in, format_toml, load_mission, tables_of
 from tandemlift.pictures.figures.registry import captions, figures_for
@@ -126,6 +127,7 @@ def write_report(
         packed=replay and base64.b64encode(gzip.compress(replay.encode(), mtime=0)).decode(),
         verdict=_verdict(flight),
         flight=flight,
+        notes=list(notes(flight)),
         crash=counted_until(flight),
         place=place_text,
         setup=setup_table(flight),
