@@ -54,7 +54,8 @@ def notes(flight: Flight) -> Iterator[str]:
     thrusts, most = _thrusts_and_limits(flight, "ideal")
     beyond = ((thrusts < 0.0) | (thrusts > most)).any(axis=1)
     if beyond.any():
-        low, high = (f"{x:+,.0f}".replace("-", "−") for x in (np.nanmin(thrusts), np.nanmax(thrusts)))
+        ends = float(np.nanmin(thrusts)), float(np.nanmax(thrusts))
+        low, high = ((f"{x:+,.0f}" if abs(x) > 100.0 else f"{x:+.3g}").replace("-", "−") for x in ends)
         give = " or ".join(f"{x:.3g}" for x in sorted(set(most.tolist())))
         yield (
             f"ideal actuators: beyond what these quadrotors give (0 to {give} N a rotor), from {low} to {high} N, "

@@ -51,9 +51,9 @@ def start_checks(
         if value > limit:  # the rest takes a tenth of a second
             law, can = first_command(controller, hover.vehicle, step, i)[axis + 1], hover.largest_moments[axis]
             text = (
-                f"at the start the controller, linear about hover, asks for {value:.3g} N m in {name} (its law commands "
-                f"{abs(law):.4g}); the rotors can exert {can:.3g} in hover, {authority[axis]:.3g} by allocation.weights, "
-                f"and flights recover from {BEYOND:g} times the latter: start nearer to rest (initial.euler, "
+                f"at the start the controller, linear about hover, asks for {value:.3g} N m in {name} (its law "
+                f"commands {abs(law):.4g}); the rotors can exert {can:.3g} in hover, {authority[axis]:.3g} by "
+                f"allocation.weights, and flights recover from {BEYOND:g} times the latter: start nearer to rest (initial.euler, "
                 'initial.rates), lower the gains, or take allocation.method = "constrained"'
             )
         yield judged("start", value, limit, "N m", text, subject=name)

@@ -101,8 +101,8 @@ def _of_tracking(paper: Flight) -> Iterator[PaperClaim]:
     yield _judged(
         "Figure 6",
         "The controller recovers an aggressive start.",
-        f"From {_list(error[0], 2)} m on x, y, z, all errors are small from {recovered:.1f} s until {UNTIL:g} s, before "
-        "the pushes along x and y.",
+        f"From {_list(error[0], 2)} m on x, y, z, all errors are small from {recovered:.1f} s until {UNTIL:g} s, "
+        "before the pushes along x and y.",
         f"{1e3 * WITHIN:g} mm, from {LATE:g} s on.",
         recovered < LATE,
     )
@@ -171,8 +171,8 @@ def _of_the_law(paper: Flight) -> Iterator[PaperClaim]:
         yield _judged(
             "Theorem 1",
             theorem,
-            f"In the first second V rises in {_list(rising, 0, ' %')} of the samples on x, y, which are commanded through "
-            "the attitude. On an axis that is commanded directly, it falls (erratum `Theorem 1`).",
+            f"In the first second V rises in {_list(rising, 0, ' %')} of the samples on x, y, which are commanded "
+            "through the attitude. On an axis that is commanded directly, it falls (erratum `Theorem 1`).",
             "0 % of the samples.",
             not rising.any(),
         )
@@ -219,8 +219,8 @@ def _of_the_person(paper: Flight) -> Iterator[PaperClaim]:
     yield _judged(
         "Figure 8",
         "Below the threshold the position is held, beyond it the admittance responds.",
-        f"The admittance is driven in {100.0 * (1.0 - off.mean()):.0f} % of the time. While it is not, T_r coasts to rest: "
-        f"{coasted:.2f} m in all.",
+        f"The admittance is driven in {100.0 * (1.0 - off.mean()):.0f} % of the time. While it is not, T_r coasts to "
+        f"rest: {coasted:.2f} m in all.",
         f"{1e3 * WITHIN:g} mm.",
         coasted < WITHIN,
     )
@@ -231,6 +231,7 @@ def _of_workload(paper: Flight) -> Iterator[PaperClaim]:
     weight, z = paper.vehicle.payload.mass * GRAVITY, paper["position"][:, 2]
     work, step = paper.metrics()["human_work_j"], float(np.diff(paper.time[:2]).sum())
     held = float(np.linalg.norm(paper["push_force"], axis=1).sum()) * step
+    largest = float(np.linalg.norm(paper["push_force"], axis=1).max())
     up = float(np.mean(z > z[0] + WITHIN)) * paper.time[-1]
     yield _judged(
         "Abstract",
@@ -243,7 +244,7 @@ def _of_workload(paper: Flight) -> Iterator[PaperClaim]:
     yield _judged(
         "Abstract",
         "The person's workload is reduced, as force over time.",
-        f"The person pushes with {held:.0f} N s in all, {np.linalg.norm(paper['push_force'], axis=1).max():.1f} N at most.",
+        f"The person pushes with {held:.0f} N s in all, {largest:.1f} N at most.",
         f"{weight * up:.0f} N s: the payload held by hand for the {up:.0f} s that it is up.",
         held < weight * up,
     )
