@@ -23,8 +23,9 @@ NAMED = re.compile(rf"\b({'|'.join(FUNCTIONS)})\b")
 
 
 def errata_markdown() -> str:
-    """A section for each group of errata, and one for each erratum."""
-    parts: list[str] = []
+    """A table of all errata with their classes, a section for each group, and one for each erratum."""
+    rows = "\n".join(f"| `{one.about}` | {one.kind} | {typeset(one.title)} |" for one in errata())
+    parts = [f"| label | class | error |\n|---|---|---|\n{rows}"]
     for group, members in groupby(errata(), key=lambda erratum: erratum.group):
         parts += [f"## {group}", *(_section(erratum) for erratum in members)]
     return "\n\n".join(parts) + "\n"
@@ -34,8 +35,9 @@ def _section(erratum: Erratum) -> str:
     setting = f" Setting: `{erratum.setting}`." if erratum.setting else ""
     return "\n".join(
         (
-            f"### `{erratum.about}`: {erratum.title}",
+            f"### `{erratum.about}`: {typeset(erratum.title)}",
             "",
+            f"- Class: {erratum.kind}",
             f"- Printed: {typeset(erratum.printed)}",
             f"- Right: {typeset(erratum.right)}",
             f"- Shows: {typeset(erratum.shows)}{setting}",

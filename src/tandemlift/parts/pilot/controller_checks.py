@@ -53,8 +53,8 @@ def start_checks(
             text = (
                 f"at the start the controller, linear about hover, asks for {value:.3g} N m in {name} (its law "
                 f"commands {abs(law):.4g}); the rotors can exert {can:.3g} in hover, {authority[axis]:.3g} by "
-                f"allocation.weights, and flights recover from {BEYOND:g} times the latter: start nearer to rest (initial.euler, "
-                'initial.rates), lower the gains, or take allocation.method = "constrained"'
+                f"allocation.weights, and flights recover from {BEYOND:g} times the latter: start nearer to rest "
+                '(initial.euler, initial.rates), lower the gains, or take allocation.method = "constrained"'
             )
         yield judged("start", value, limit, "N m", text, subject=name)
     for axis, along in ((0, 1), (1, 0)):

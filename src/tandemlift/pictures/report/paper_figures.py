@@ -45,7 +45,8 @@ class Erratum(NamedTuple):
 
     Attributes:
         about: the label of the equation, or the name of the claim or table.
-        group: Formulas, Claims or Tables.
+        group: Formulas, Claims, Tables, or a difference of ours.
+        kind: typo, notation, substance, or ours.
         title: the error.
         printed: the paper's text.
         right: the correction.
@@ -58,6 +59,7 @@ class Erratum(NamedTuple):
 
     about: str
     group: str
+    kind: str
     title: str
     printed: str
     right: str
