@@ -25,7 +25,8 @@ ERRATA = {
     "equ_des_orient", "equ4", "kinematic_equ", "trans_rot_payload_equ", "input_vector_equ", "b_matrix_equ",
     "cost_fun_equ", "pos_cont_equ", "sat_equ", "control_final_equ", "u_hat_equ", "vsdot_f_equ", "lyap_fun_equ",
     "xsi_seprate_equ", "reach_time_equ", "sliding_surface_equ", "Theorem 1", "Assumption 4", "Table II", "Table III",
-    "thrus_z_equ", "F_ext", "One sensor", "Assumption 3", "Section IV", "J_Lx, J_Ly", "m_L, L, r_L", "Figure 8",
+    "thrus_z_equ", "F_ext", "One sensor", "Assumption 3", "Section IV", "Payload inertia",
+    "Payload density", "Point of the push",
 }  # fmt: skip
 LABEL = re.compile(r"\b(?:[A-Za-z]\w*equ|equ_\w+|equ\d|u_inputs)\b")
 SPAN = re.compile(r"`([^`]+)`")

@@ -101,7 +101,7 @@ def test_the_push_follows_from_the_joints_only_with_weight_inertia_and_frames():
     ("mission", "system", "payload"), [("paper", 2.517, 2.513), ("flight-ready", 79.26, 49.20), ("iris", 1.64, 1.49)]
 )
 def test_a_push_at_the_payloads_centre_moves_the_vehicle_with_less_error_than_at_the_systems(mission, system, payload):
-    """It is 64 mm lower, so that its moment tilts the vehicle the way that it is pushed. RMSE along x after 10 s [mm]."""
+    """It is 64 mm lower: its moment tilts the vehicle the way that it is pushed. RMSE along x after 10 s [mm]."""
     given = tl.load_mission(mission)
     x, y, z = given.hover.vehicle.payload_center.tolist()
     assert (x, y) == (0.0, 0.0)

@@ -9,7 +9,7 @@ import re
 import unicodedata
 from itertools import groupby
 
-from tandemlift.pictures.report.paper_figures import Erratum, errata
+from tandemlift.pictures.report.paper_figures import Erratum, errata, future_work
 
 ACCENTS = {"\u0307": "dot", "\u0308": "ddot", "\u0302": "hat"}
 FUNCTIONS = ("atan", "cos", "ln", "sat")
@@ -29,6 +29,12 @@ def errata_markdown() -> str:
     for group, members in groupby(errata(), key=lambda erratum: erratum.group):
         parts += [f"## {group}", *(_section(erratum) for erratum in members)]
     return "\n\n".join(parts) + "\n"
+
+
+def future_markdown() -> str:
+    """What the paper leaves to future work, and where we are, as a table."""
+    rows = "\n".join(f"| {one['direction']} | {one['here']} | {one['missing']} |" for one in future_work())
+    return f"| there | here | missing |\n|---|---|---|\n{rows}\n"
 
 
 def _section(erratum: Erratum) -> str:

@@ -224,10 +224,18 @@ def grade(folder: Path, exercises: Path, seconds: float, out: str | None) -> Non
 
 @click.command()
 def docs() -> None:
-    """Open the documentation in a browser, without a network."""
-    for page in (DATA / "site/index.html", DATA.parents[2] / "out/site/index.html"):  # of a wheel; of a checkout
+    """Open the documentation in a browser, without a network.
+
+    In a checkout it is the site that `make docs` or `make docs-quick` built last; before any, its pages as text.
+    """
+    out, text = DATA.parents[2] / "out", DATA.parents[2] / "docs/index.md"
+    built = [page for name in ("site", "site-quick") if (page := out / name / "index.html").is_file()]
+    built.sort(key=lambda page: page.stat().st_mtime, reverse=True)
+    for page in (DATA / "site/index.html", *built, text):
         if page.is_file():
             echo(str(page))
+            if page == text:
+                echo("as text: `make docs-quick` builds the site in a minute, `make docs` with what tutorials draw")
             click.launch(page.as_uri())
             return
-    raise InputError("this installation has no documentation: in a checkout, `make docs` makes it")
+    raise InputError("this installation has no documentation: a wheel of a release has it, and a checkout")

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import shlex
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from tandemlift.apps.cli import flying
-from tandemlift.apps.cli.completion import FLIGHTS
+from tandemlift.apps.cli.completion import FLIGHTS, MISSIONS
 from tandemlift.apps.cli.console import echo, progress_bar
-from tandemlift.apps.export.results import FIGURES, file_path, load_flight, results_folder
+from tandemlift.apps.export.results import FIGURES, file_path, load_flight, read_curves, results_folder
 from tandemlift.core.errors import InputError
+from tandemlift.core.files import parse_setting
 
 if TYPE_CHECKING:
+    from tandemlift.missions import Mission
     from tandemlift.pictures.report.paper_report import PaperFlights
 
 
@@ -114,24 +118,44 @@ def plot(figure: str, flights: tuple[str, ...], out: str | None) -> None:
     echo(f"{figure}: {save(drawn, path)}")
 
 
-OUT = "out/paper.pdf"
+OUT, MISSION = "out/paper.pdf", "paper"
 
 
 @click.command()
 @click.option("--out", metavar="FILE", default=OUT, show_default=True, help="FILE.pdf.")
+@click.option(
+    "--mission",
+    metavar="MISSION",
+    default=MISSION,
+    show_default=True,
+    shell_complete=MISSIONS,
+    help="Fly another mission in its place: a name, or the path of a .toml file.",
+)
+@flying.set_option
+@click.option("--curves", metavar="FILE.csv", help="Lay your own curves over ours, in Figures 4, 6, 7 and 8.")
 @flying.kept_style_option
 @click.option("--no-pdf", is_flag=True, help="Write figures, tables and source only.")
-def paper(out: str, style: str | None, no_pdf: bool) -> None:
+def paper(
+    out: str, mission: str, settings: tuple[str, ...], curves: str | None, style: str | None, no_pdf: bool
+) -> None:
     """Put the paper's figures and tables beside ours, in one PDF.
 
     The missions `paper` and `zigzag` are flown, and `paper` once more for each setting that the paper leaves open, with
-    another choice. The PDF needs the package typst: pip install 'tandemlift[paper]'. Without it, the rest is written.
+    another choice. The PDF needs the package typst, which `make run` does not install: pip install 'tandemlift[paper]'.
+    Without it, give --no-pdf: all else is written.
 
     \b
     Examples:
       tandemlift paper
       tandemlift paper --out reproduction.pdf --style elsevier
+      tandemlift paper --mission mine.toml
+      tandemlift paper --curves measured.csv
       tandemlift paper --no-pdf
+
+    FILE.csv has a line of names, then numbers: time in seconds, and any of push_force, admittance_force,
+    admittance_position, admittance_velocity, position, velocity (x, y, z), euler, attitude_error, moment (roll, pitch,
+    yaw), position_error, velocity_error and thrust, as position_x or position[m].x, in SI units and radians. Files of
+    `tandemlift export` have these names. docs/how-to/figures-for-a-paper.md lists them.
 
     \b
     Files, for FILE.pdf:
@@ -141,13 +165,25 @@ def paper(out: str, style: str | None, no_pdf: bool) -> None:
       FILE-files/report.typ    the source of the PDF, with its text and numbers in report.json
     """
     from tandemlift.apps.ros.gazebo_flight import gazebo_sentence
-    from tandemlift.pictures.report.paper_report import typeset, write_paper_files
+    from tandemlift.missions import load_mission
+    from tandemlift.pictures.report.paper_figures import curve_channels
+    from tandemlift.pictures.report.paper_report import check_typesetting, typeset, write_paper_files
 
     path = file_path("--out", out, ".pdf")
-    given = f"--out {out}" if out != OUT else "", f"--style {style}" if style else "", "--no-pdf" if no_pdf else ""
-    command = " ".join(["tandemlift paper", *filter(None, given)])
+    if not no_pdf:
+        check_typesetting()
+    own = None
+    if curves is not None:
+        own, left_out = read_curves(file_path("--curves", curves, ".csv"), curve_channels())
+        echo(f"curves: {', '.join(own)} of {curves}" + (f"; left out: {', '.join(left_out)}" if left_out else ""))
+    changes = dict(map(parse_setting, settings))
+    load_mission(mission, changes)
+    given = [("--out", out if out != OUT else ""), ("--mission", mission if mission != MISSION else "")]
+    given += [("--set", one) for one in settings] + [("--curves", curves or ""), ("--style", style or "")]
+    command = shlex.join(["tandemlift", "paper", *(word for pair in given if pair[1] for word in pair)])
+    command += " --no-pdf" if no_pdf else ""
     with results_folder(str(path.parent), path.parent, (path.name,)):
-        flights = fly_paper()
+        flights = fly_paper(mission, changes)._replace(curves=own)
         folder = path.with_name(f"{path.stem}-files")
         with progress_bar("Drawing", "figures") as progress:
             write_paper_files(flights, folder, command, gazebo_sentence(), progress)
@@ -157,15 +193,22 @@ def paper(out: str, style: str | None, no_pdf: bool) -> None:
             echo(f"report: {path}")
 
 
-def fly_paper() -> PaperFlights:
-    """Fly the missions of the report, with a progress bar."""
+def fly_paper(name: str, changes: Mapping[str, Any]) -> PaperFlights:
+    """Fly a mission in place of the paper's, again with each open setting chosen otherwise, and the corridor's."""
     from tandemlift.missions import load_mission
     from tandemlift.pictures.report.paper_figures import open_settings
     from tandemlift.pictures.report.paper_report import PaperFlights
     from tandemlift.simulation.fly import fly_many
 
-    missions = [load_mission("paper"), load_mission("zigzag")]
-    missions += [load_mission("paper", setting.changes) for setting in open_settings()]
+    choices: list[Mission | None] = []
+    for setting in open_settings():
+        try:
+            choices.append(load_mission(name, {**changes, **setting.changes}))
+        except InputError:  # a setting of the paper's that this mission does not have
+            choices.append(None)
     with progress_bar("Flying", "flights") as progress:
-        flown, corridor, *choices = fly_many(missions, progress=progress)
-    return PaperFlights(flown, corridor, [flight.metrics() for flight in choices])
+        flown, corridor, *others = fly_many(
+            [load_mission(name, changes), load_mission("zigzag"), *(one for one in choices if one)], progress=progress
+        )
+    metrics = (flight.metrics() for flight in others)
+    return PaperFlights(flown, corridor, [next(metrics) if one else None for one in choices])

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+import re
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -144,3 +145,51 @@ def _check_kept(written: Path, mission: str | None) -> None:
     tables = toml_tables(text)
     if "extends" in tables or text != format_toml(tables):
         raise InputError(f"--out {written.parent}: the results would replace {mission}: give another folder")
+
+
+def read_curves(path: Path, wanted: Iterable[str]) -> tuple[Flight, list[str]]:
+    """Curves from a table, as a flight with those channels only, and the names of the columns that were left out.
+
+    A column has the name of `Flight.to_pandas`, such as `position_x`, or of an export to .csv, such as `position[m].x`,
+    and the channel's unit. An empty cell is a gap.
+
+    Args:
+        path: of a .csv file with a line of names, `time` [s] among them.
+        wanted: channels to read, and errors in `DERIVED`.
+
+    Raises:
+        InputError: it is no table of numbers, `time` does not rise, or none of the columns is a wanted one.
+    """
+    import numpy as np
+
+    from tandemlift.apps.export.logs import csv_table
+    from tandemlift.flight.channels import DERIVED, channel_of
+    from tandemlift.flight.data_frames import column_names
+    from tandemlift.flight.record import Flight
+
+    try:
+        table = csv_table(path)
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: is no text in UTF-8 ({error.reason} at byte {error.start})") from None
+    columns = list(table.columns(""))
+    given = {re.sub(r"\[[^]]*\]", "", name).replace(".", "_"): name for name in columns}
+    if len(given) < len(columns):
+        twice = next(name for name in columns if name not in given.values())
+        raise InputError(f"{path}: {twice} is a column under two names; one must go")
+    if "time" not in given:
+        raise InputError(f"{path}: has no column time [s]; it has {', '.join(given)}")
+    time, channels, read = table.column("", given["time"]), {}, {given["time"]}
+    if len(time) < 2 or not (np.diff(time) > 0.0).all():
+        raise InputError(f"{path}: time must rise from line to line, in two lines at least")
+    names = {}
+    for name in wanted:
+        info = DERIVED[name][2] if name in DERIVED else channel_of(name)
+        names[name] = column_names(name, info, (info.width,) if info.width > 1 else ())
+        if {*names[name]} & {*given}:
+            parts = [table.column("", given[n]) if n in given else np.full(len(time), np.nan) for n in names[name]]
+            channels[name] = np.column_stack(parts) if info.width > 1 else parts[0]
+            read |= {given[n] for n in names[name] if n in given}
+    if not channels:
+        known = ", ".join(name for many in names.values() for name in many)
+        raise InputError(f"{path}: none of its columns is drawn; those that are: {known}")
+    return Flight(time, channels, {"mission": {"name": path.stem}}, {}), [n for n in given.values() if n not in read]

@@ -51,8 +51,18 @@ def claims(paper: Flight, corridor: Flight) -> list[PaperClaim]:
         paper: a flight of the mission `paper`, or of the reader's.
         corridor: a flight through the corridor.
     """
-    parts = _of_the_vehicle(paper), _of_tracking(paper), _of_attitude(paper), _of_the_law(paper)
-    return [claim for part in (*parts, _of_the_person(paper), _of_the_corridor(corridor)) for claim in part]
+    sections = [_of_the_vehicle, _of_tracking, _of_attitude, _of_the_law, _of_the_person]
+    if paper.failure or paper.time[-1:].sum() < LATE:
+        sections = [_of_the_vehicle, _of_the_end]
+    return [*(claim for section in sections for claim in section(paper)), *_of_the_corridor(corridor)]
+
+
+def _of_the_end(paper: Flight) -> Iterator[PaperClaim]:
+    says, until = "The vehicle flies the whole task.", f"a flight of {LATE:g} s or more that does not fail"
+    if paper.failure:
+        yield PaperClaim("Section IV", says, f"{paper.failure[0].upper()}{paper.failure[1:]}.", f"{until}.", NOT)
+    else:
+        yield PaperClaim("Section IV", says, f"It ends at {paper.time[-1:].sum():g} s.", f"{until}.", UNTESTED)
 
 
 def _of_the_vehicle(paper: Flight) -> Iterator[PaperClaim]:

@@ -20,6 +20,7 @@ from tandemlift.core.files import atomic_write
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.figure import Caption
+from tandemlift.pictures.drawing.overlay import over_time
 from tandemlift.pictures.drawing.scene import NEAR, on_paper
 from tandemlift.pictures.drawing.style import (
     BLUE,
@@ -91,6 +92,7 @@ class PaperFigure(NamedTuple):
         command: that draws ours.
         parts: the name of each drawing, what it draws (`mission`, `paper flight` or `zigzag flight`), and what stands
             behind the number.
+        curves: channels in which a reader's curves are laid over ours.
     """
 
     number: int
@@ -99,6 +101,7 @@ class PaperFigure(NamedTuple):
     differs: str
     command: str
     parts: list[tuple[str, str, str]]
+    curves: list[str] = []  # noqa: RUF012
 
 
 class OpenSetting(NamedTuple):
@@ -129,6 +132,11 @@ def open_settings() -> list[OpenSetting]:
     return [OpenSetting(**table) for table in _contents()["open"]]
 
 
+def future_work() -> list[dict[str, str]]:
+    """What the paper leaves to future work: `direction`, what is `here`, and what is `missing`."""
+    return list(_contents()["future"])
+
+
 def caption_of(name: str) -> Caption:
     """The caption of a drawing."""
     if name in diagram_captions():
@@ -143,6 +151,19 @@ def write_drawing(name: str, flight: Flight | None, path: Path) -> None:
         return
     with atomic_write(path) as partial:
         partial.write_bytes((DATA / "diagrams" / f"{name}.svg").read_bytes())
+
+
+def curve_channels() -> list[str]:
+    """The channels in which a reader's curves are laid over ours, in the order of the figures."""
+    return list(dict.fromkeys(channel for figure in paper_figures() for channel in figure.curves))
+
+
+def write_curves(figure: PaperFigure, ours: Flight, curves: Flight, path: Path) -> bool:
+    """Write a reader's curves over ours, if they have any of the figure's channels; whether they have."""
+    shown = [channel for channel in figure.curves if channel in curves]
+    if shown:
+        save_figure(over_time(*shown)({"here": ours, curves.name: curves}), path)
+    return bool(shown)
 
 
 def file_of(figure: PaperFigure, name: str) -> str:

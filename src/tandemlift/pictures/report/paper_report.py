@@ -25,13 +25,15 @@ from tandemlift.pictures.report.paper_figures import (
     caption_of,
     errata,
     file_of,
+    future_work,
     open_settings,
     paper_figures,
+    write_curves,
     write_drawing,
 )
 from tandemlift.pictures.report.paper_tables import as_csv, as_latex, nomenclature, paper_tables, value_at
 
-SOURCE = "report.typ"
+SOURCE, CURVES = "report.typ", "figures/figure-{}-curves.pdf"
 
 
 class PaperFlights(NamedTuple):
@@ -40,12 +42,15 @@ class PaperFlights(NamedTuple):
     Attributes:
         paper: a flight of the mission `paper`.
         corridor: a flight through the corridor of Figure 9.
-        choices: the metrics of `paper` with each of `open_settings()` chosen otherwise, in their order.
+        choices: the metrics of `paper` with each of `open_settings()` chosen otherwise, in their order; None for one
+            that the mission does not have.
+        curves: those of a reader, laid over ours, if any.
     """
 
     paper: Flight
     corridor: Flight
-    choices: Sequence[Mapping[str, Any]]
+    choices: Sequence[Mapping[str, Any] | None]
+    curves: Flight | None = None
 
 
 def document(flights: PaperFlights, command: str, gazebo: str) -> dict[str, Any]:
@@ -58,6 +63,7 @@ def document(flights: PaperFlights, command: str, gazebo: str) -> dict[str, Any]
     """
     return {
         "command": command,
+        "mission": flights.paper.name,
         "versions": versions_of(flights.paper),
         "engine": flights.paper.version.get("engine", ""),
         "claims": [claim._asdict() for claim in claims(flights.paper, flights.corridor)],
@@ -66,18 +72,22 @@ def document(flights: PaperFlights, command: str, gazebo: str) -> dict[str, Any]
             {**table._asdict(), "rows": [row._asdict() for row in table.rows]}
             for table in paper_tables(flights.paper.mission)
         ],
-        "figures": [_figure(figure, gazebo) for figure in paper_figures()],
+        "figures": [_figure(figure, gazebo, flights.curves) for figure in paper_figures()],
         "open": _open(flights),
         "errata": [erratum._asdict() for erratum in errata()],
+        "future": future_work(),
     }
 
 
-def _figure(figure: PaperFigure, gazebo: str) -> dict[str, Any]:
+def _figure(figure: PaperFigure, gazebo: str, curves: Flight | None) -> dict[str, Any]:
     parts = []
     for name, _, behind in figure.parts:
         caption = caption_of(name)
         text = f"{caption.title}. {caption.text}"
         parts.append({"file": file_of(figure, name), "behind": behind, "caption": text, "alt": caption.alt})
+    if curves is not None and any(channel in curves for channel in figure.curves):
+        text = f"The curves of {curves.name} over those of the flight here."
+        parts.append({"file": CURVES.format(figure.number), "behind": ", with yours", "caption": text, "alt": text})
     about = [{"about": e.about, "title": e.title} for e in errata() if figure.number in e.figures]
     return {**figure._asdict(), "parts": parts, "errata": about, "gazebo": gazebo if figure.number == 9 else ""}
 
@@ -87,6 +97,8 @@ def _open(flights: PaperFlights) -> dict[str, Any]:
     mission = flights.paper.mission
     rows = []
     for setting, metrics in zip(open_settings(), flights.choices, strict=True):
+        if metrics is None:
+            continue
         rows.append(
             {
                 "key": setting.key,
@@ -139,6 +151,9 @@ def write_paper_files(
         write_drawing(name, given[of], folder / file_of(figure, name))
         if progress:
             progress(done, len(parts))
+    for figure in paper_figures():
+        if flights.curves is not None:
+            write_curves(figure, flights.paper, flights.curves, folder / CURVES.format(figure.number))
     for table in paper_tables(flights.paper.mission):
         for suffix, written in (("csv", as_csv), ("tex", as_latex)):
             _write(folder / "tables" / f"table-{table.number}.{suffix}", written(table))
@@ -158,7 +173,7 @@ def check_typesetting() -> None:
     Raises:
         InputError: the package that sets it is not installed.
     """
-    with extra("paper", "the PDF of the paper's report"):
+    with extra("paper", "the PDF of the paper's report, which --no-pdf leaves out,"):
         import typst  # noqa: F401
 
 

@@ -100,11 +100,20 @@ def value_at(mission: Mapping[str, Any], key: str) -> Any:
 
 
 def _numbers(row: Mapping[str, Any], mission: Mapping[str, Any]) -> list[float]:
-    """Our numbers of a row, as many as the paper prints; several that are printed as one must be equal."""
+    """Our numbers of a row, as many as the paper prints; several that are printed as one must be equal.
+
+    None if the mission has no such quantity: another controller, or a payload of another shape.
+    """
     if "derived" in row:
         values = np.atleast_1d(DERIVED[row["derived"]](check(dict(mission), quiet=True).hover.vehicle))
     else:
-        values = np.atleast_1d(value_at(mission, row["key"]))[AXES[row.get("axes", "one")]]
+        try:
+            found = value_at(mission, row["key"])
+        except KeyError:
+            found = None
+        if found is None:
+            return []
+        values = np.atleast_1d(found)[AXES[row.get("axes", "one")]]
     if len(row["printed"]) == 1 and np.all(values == values[0]):
         values = values[:1]
     return [float(value) for value in values]
@@ -126,7 +135,7 @@ def _row(row: Mapping[str, Any], mission: Mapping[str, Any]) -> TableRow:
     if row.get("derived") == "gravity":
         source = "`core.types.GRAVITY`"
     ours = printed if same else [f"{value:.6g}" for value in values]
-    shown = [", ".join(map(_plain, numbers)) for numbers in (printed, ours)]
+    shown = [", ".join(map(_plain, numbers)) or "none" for numbers in (printed, ours)]
     return TableRow(row["symbol"], row["meaning"], shown[0], unit, shown[1], right, source, ", ".join(marks))
 
 
