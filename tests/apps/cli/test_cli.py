@@ -261,3 +261,22 @@ def test_a_warning_is_one_line_told_once(run):
     told = [line for line in err.splitlines() if "may chatter" in line]
     assert len(told) == 1
     assert told[0].startswith("warning: ")
+
+
+def test_docs_open_what_a_checkout_has_the_newest_site_first(run, tmp_path, monkeypatch):
+    from tandemlift.apps.cli import live
+
+    opened = []
+    monkeypatch.setattr(live, "DATA", tmp_path / "src/tandemlift/data")
+    monkeypatch.setattr(live.click, "launch", opened.append)
+    assert "a wheel of a release has it, and a checkout" in check_refused(run("docs"))
+    pages = [tmp_path / name for name in ("docs/index.md", "out/site/index.html", "out/site-quick/index.html")]
+    for i, page in enumerate(pages):
+        page.parent.mkdir(parents=True)
+        page.touch()
+        os.utime(page, (i, i))
+        code, out, _ = run("docs")
+        assert code == 0
+        assert out.splitlines()[0] == str(page)
+        assert ("make docs" in out) == (i == 0)  # as text only
+    assert opened == [page.as_uri() for page in pages]

@@ -153,9 +153,9 @@ def paper(
       tandemlift paper --no-pdf
 
     FILE.csv has a line of names, then numbers: time in seconds, and any of push_force, admittance_force,
-    admittance_position, admittance_velocity, position, velocity (x, y, z), euler, attitude_error, moment (roll, pitch,
-    yaw), position_error, velocity_error and thrust, as position_x or position[m].x, in SI units and radians. Files of
-    `tandemlift export` have these names. docs/how-to/figures-for-a-paper.md lists them.
+    admittance_position, admittance_velocity, position, velocity, position_error, velocity_error, moment (x, y, z),
+    euler, attitude_error (roll, pitch, yaw) and thrust, as position_x or position[m].x, in SI units and radians. Files
+    of `tandemlift export` have these names. docs/how-to/figures-for-a-paper.md says which figure has which.
 
     \b
     Files, for FILE.pdf:
