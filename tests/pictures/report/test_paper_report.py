@@ -169,6 +169,20 @@ def test_of_a_flight_that_fails_no_claim_of_tracking_holds(flights):
     assert not [claim for claim in found if claim.where == "Figure 6"]
 
 
+def test_what_a_flight_does_not_show_is_not_tested(flights):
+    """An undisturbed start recovers nothing, and a push that still acts has no closed form."""
+    calm = tl.fly(tl.load_mission("paper", {"initial.position": 0.0, "initial.euler": 0.0, "mission.duration": 22.0}))
+    verdicts = {(claim.where, claim.says): claim.verdict for claim in claims(calm, flights.corridor)}
+    untested = {says for (_, says), verdict in verdicts.items() if verdict == "not tested"}
+    assert untested >= {
+        "The inputs act on the disturbed start and then return to normal.",
+        "The controller recovers an aggressive start.",
+        "The closed loop is asymptotically stable: V falls whenever it is not zero.",
+        "The reference moves in proportion to the push, with full compliance.",
+    }
+    assert verdicts["Figure 6", "Yaw is kept at zero."] == "holds"
+
+
 def test_a_soft_gate_passes_the_closed_form_of_what_exceeds_the_threshold():
     push, admittance = {"force": [3.0, 0.0, 0.0], "sigma": 0.6}, {"threshold": [0.3] * 3, "damping": [1.6] * 3}
     t = np.linspace(-5.0, 5.0, 200_001)
