@@ -26,7 +26,9 @@ errors.legend(ncols=3)
 figure.savefig("reproduce_the_paper.png", dpi=150)
 
 roll = abs(metrics["command_at_start"][1])
-assert 1060 < roll < 1070  # N m
+assert 1065 < roll < 1067  # N m
+hover = mission.hover
+assert np.allclose([hover.largest_moments[0], hover.authority[0]], [23.0, 4.93], atol=0.05)  # N m
 real = tl.fly(tl.load_mission("paper", {"actuators.model": "rotors"}))
 print(real.failure)
 assert 3.0 < real.ending.time < 3.1  # s
