@@ -77,7 +77,7 @@ def _of_the_vehicle(paper: Flight) -> Iterator[PaperClaim]:
         same,
     )
     metrics, most = paper.metrics(), check(dict(paper.mission), quiet=True).hover.largest_moments
-    start, later = np.abs(metrics["command_at_start"][1:]), metrics["moment_max_abs_after_10s_n_m"]
+    start, later = np.abs(metrics["command_at_start"] or [math.nan] * 4)[1:], metrics["moment_max_abs_after_10s_n_m"]
     yield _of_a_disturbed_start(
         paper,
         "Figure 7",
