@@ -185,7 +185,9 @@ class PageServer:
                     self._dispatcher.receive(viewer, text)
                 if flooding := viewer.is_flooding():
                     break
-                await asyncio.sleep(viewer.rest())  # also when 0: messages that wait do not delay other pages
+                await asyncio.sleep(
+                    self.viewers.rest(viewer)
+                )  # also when 0: messages that wait do not delay other pages
         except ConnectionClosed:
             pass
         finally:
