@@ -175,6 +175,8 @@ class PageServer:
         connection.transport.get_extra_info("socket").setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER)
         viewer = Viewer(connection)
         viewer.send(SceneMessage(type="scene", **self._flight.scene))
+        for frame in self._flight.past():
+            viewer.send(frame)
         self.viewers.join(viewer)
         self.viewers.send_status(self._flight.status())
         self._watched.set()

@@ -112,12 +112,12 @@ class Viewer:
         self._echoing, self.last_echo = False, time.monotonic()
         self.send_frame(frame())
 
-    def send(self, what: Mapping[str, Any] | str) -> None:
-        """Send a message, or cut off a viewer that does not read."""
+    def send(self, what: Mapping[str, Any] | str | bytes) -> None:
+        """Send a message, or a frame that it must not miss, or cut off a viewer that does not read."""
         if self.connection.transport.get_write_buffer_size() > LOST:
             self.connection.transport.abort()
         else:
-            broadcast([self.connection], what if isinstance(what, str) else text_of(what))
+            broadcast([self.connection], what if isinstance(what, str | bytes) else text_of(what))
 
     def refuse(self, refusal: Refusal) -> None:
         """Send the reason of a refused message; a few times a second at most."""

@@ -37,7 +37,7 @@ class VehicleLink:
         self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self.socket.setblocking(False)
         self._listener, self._others = (HOST, port + number - 1), list[tuple[str, int]]()
-        self._unread, self._sender = b"", object()
+        self._unread, self._sender = b"", ("", 0)
         self.send = mavlink.MAVLink(self, number, mavlink.MAV_COMP_ID_AUTOPILOT1).send
         try:
             self.socket.bind((HOST, port + OWN + number - 1))
