@@ -11,6 +11,7 @@ from click.testing import CliRunner
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli
 from tandemlift.core.files import MAX_PARTS
+from tandemlift.missions import refusals
 from tandemlift.missions.recording import MAX_UNPACKED, WIDTH, Recording, read_recording, write_recording
 
 LONG = ".".join("a" * 5_000)
@@ -73,3 +74,21 @@ def test_an_hour_of_a_hand_that_moves_without_rest_is_read_again(tmp_path):
     again = read_recording(str(tmp_path / "hand.npz"))
     assert np.array_equal(again.steps, steps)
     assert np.array_equal(again.hands, hands)
+
+
+@pytest.mark.parametrize(
+    ("text", "what"),
+    [("\n".join(f"k{i} = 1" for i in range(6_000)), "k0 = 1"), ("pushes = [" + "{a=1}," * 3_000 + "]", "pushes.0")],
+)
+def test_of_thousands_of_problems_only_those_that_are_told_are_put_into_words(write, monkeypatch, text, what):
+    worded = []
+    for name in ("_unknown_key", "_refusal"):
+        word = getattr(refusals, name)
+        monkeypatch.setattr(refusals, name, lambda *args, word=word: (worded.append(args), word(*args))[1])
+    write(text)
+    with pytest.raises(tl.InputError) as refused:
+        tl.load_mission("mine.toml")
+    first, *_, last = str(refused.value).splitlines()
+    assert what in first
+    assert int(last.split()[-2]) > 5_000  # all are counted
+    assert len(worded) <= 4 * refusals.MOST  # some keys have several problems, told as one

@@ -93,13 +93,13 @@ class Number:
 class World:
     """Two X500 and their clients."""
 
-    def __init__(self):
+    def __init__(self, autopilot="generic"):
         self.port = free_ports()
         self.keys = {f"wind.velocity_{n}": Number(float(n)) for n in (1, 2, 3)}
         changes = {"pushes": [], "phases.land_start": 3000.0, "mission.duration": 3600.0}
         mission = tl.load_mission("two-x500", changes)
         self.quadrotors = quadrotors_of(mission)
-        self.vehicles = MavlinkVehicles(self.quadrotors, port=self.port).__enter__()
+        self.vehicles = MavlinkVehicles(self.quadrotors, port=self.port, autopilot=autopilot).__enter__()
         self.vehicles.keys, self.vehicles.readings = self.keys, {"joint_force.1": lambda: 1.25}
         self.flight = SteppedFlight(mission, self.quadrotors)
         self.clients = [Client(i + 1, self.port + 40 + i, self.port + i) for i in range(2)]

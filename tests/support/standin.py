@@ -67,6 +67,9 @@ class StandIn:
             }
             return pack_frames(self.fields, values).tobytes()
 
+    def past(self) -> list[bytes]:
+        return []
+
     def status(self) -> dict[str, Any]:
         return {"phase": "guided", "alarm": "", "paused": False, "speed": 1.0, "factor": 1.0, "behind_ms": 0.0}
 

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { stored } from "./dom.ts";
+import { fake, stored } from "./dom.ts";
 import { Challenge } from "../src/ui/challenge.ts";
 import type { Frame } from "../src/wire/frames.ts";
 import type { FlightScene, StatusMessage } from "../src/wire/messages.generated.ts";
@@ -9,6 +9,8 @@ import type { FlightScene, StatusMessage } from "../src/wire/messages.generated.
 const nothing = (): void => undefined;
 const RATE = 60; // pictures/s
 const PUSH = 1; // s, of the first push
+
+const SCENE = { mission: "zigzag", parameters: [], corridor: {} } as unknown as FlightScene;
 
 /** A frame at a time [s], at which the vehicle is as many metres along x. */
 function frame(time: number): Frame {
@@ -32,7 +34,8 @@ test("the best run is where it was at each time, also after a rewind within it a
   for (const stops of [[], [[5, 3]], [[5, 3], [6, 2]], [[5, 0]]] as const) {
     stored.clear();
     const challenge = new Challenge(nothing, nothing, nothing);
-    challenge.begin({ mission: "zigzag", parameters: [], corridor: {} } as unknown as FlightScene);
+    challenge.begin(SCENE);
+    challenge.button.click();
     let from = 0;
     for (const [to, back] of stops) {
       fly(challenge, from, to);
@@ -44,4 +47,48 @@ test("the best run is where it was at each time, also after a rewind within it a
     assert.ok(x.length >= 70);
     x.forEach((value, i) => assert.ok(Math.abs(value - (PUSH + i / 10)) < 0.04, `${value} m after ${i / 10} s`));
   }
+});
+
+/** The clock, the note, and the buttons that are offered. */
+function shown(challenge: Challenge): [string, string, string[]] {
+  challenge.tick();
+  const strip = fake(challenge.element).children[0];
+  const [time] = strip.querySelectorAll("dd");
+  const [actions] = strip.children.slice(-1);
+  const offered = actions.hidden ? [] : actions.children.filter((one) => !one.hidden).map((one) => one.querySelector("span")!.textContent);
+  return [time.textContent, strip.querySelector("p")!.textContent, offered];
+}
+
+test("it begins when it is asked for: a flight that was pushed before does not count, and a new run is offered", () => {
+  stored.clear();
+  stored.set("tandemlift.challenge", "on"); // as an earlier version kept it
+  let again = 0;
+  const challenge = new Challenge(nothing, () => (again += 1), nothing);
+  challenge.begin(SCENE);
+  assert.equal(challenge.element.hidden, true);
+  fly(challenge, 0, 3);
+  challenge.button.click();
+  assert.equal(challenge.element.hidden, false);
+  const [clock, note, offered] = shown(challenge);
+  assert.deepEqual([clock, offered], ["\u2013", ["New run"]]);
+  assert.match(note, /was pushed before/);
+  fly(challenge, 3, 8);
+  assert.deepEqual(shown(challenge)[2], ["New run"]); // nothing to hand in
+  assert.equal(stored.get("tandemlift.best.zigzag"), undefined);
+  challenge.begin(SCENE); // a new run
+  fly(challenge, 0, 3);
+  assert.deepEqual([shown(challenge)[0], shown(challenge)[2]], ["2.0 s", []]);
+  fly(challenge, 3, 8);
+  assert.deepEqual(shown(challenge)[2], ["Save to hand in", "New run"]);
+  assert.ok(stored.get("tandemlift.best.zigzag"));
+});
+
+test("asked for before the first push it counts from that push", () => {
+  stored.clear();
+  const challenge = new Challenge(nothing, nothing, nothing);
+  challenge.begin(SCENE);
+  fly(challenge, 0, PUSH - 0.5);
+  challenge.button.click();
+  fly(challenge, PUSH - 0.5, 3);
+  assert.deepEqual([shown(challenge)[0], shown(challenge)[2]], ["2.0 s", []]);
 });

@@ -2,10 +2,11 @@
 
 import socket
 import struct
+import threading
 
 import numpy as np
 import pytest
-from patience import PATIENCE, until
+from patience import PATIENCE, joined, until
 
 import tandemlift as tl
 from tandemlift.apps.clients.crazyflie import server as crazyflie_server
@@ -130,3 +131,18 @@ def read(kind):
     wind = ', "key": "wind.velocity", "value": [0.5, 0.25, 0]'
     more = {"rewind": ', "time": 0.0', "save": ', "name": "mine"', "set": wind}.get(kind, "")
     return read_message(f'{{"type": "{kind}", "seq": 1{more}}}')
+
+
+def test_a_flight_that_begins_again_changes_log_blocks_only_with_the_lock(served, monkeypatch):
+    server, _ = served
+    endpoint, held = server._endpoints[0], []
+
+    def restart():
+        other = threading.Thread(target=lambda: held.append(not endpoint.lock.acquire(blocking=False)))
+        other.start()
+        joined(other)
+
+    monkeypatch.setattr(endpoint.device, "restart", restart)
+    server._tick(2.0)
+    server._tick(1.0)
+    assert held == [True]

@@ -1,5 +1,6 @@
 """MAVLink vehicles in flight: clients of pymavlink on UDP, a flight that steps without a clock."""
 
+import importlib
 import math
 import random
 import re
@@ -14,7 +15,7 @@ from pymavlink.dialects.v20 import common as mavlink
 import tandemlift as tl
 from tandemlift.apps.clients.mavlink.modes import HOLD, LAND, OFFBOARD, TAKEOFF
 from tandemlift.apps.clients.mavlink.parameters import name_of
-from tandemlift.apps.clients.mavlink.vehicles import MavlinkVehicles
+from tandemlift.apps.clients.mavlink.vehicles import PACKETS, MavlinkVehicles, length_of, parsed
 from tandemlift.apps.live.session.parameters import tunables_of, value_of
 from tandemlift.missions import tables_of
 from tandemlift.missions.changes import MISSING
@@ -237,3 +238,47 @@ def test_a_climb_by_the_mode_uses_the_height_of_the_parameter(world):
         client.mode(TAKEOFF)
     world.fly(2.5)
     np.testing.assert_allclose(world.heights, 0.6, atol=0.03)
+
+
+def test_packets_in_one_datagram_count_as_those_in_many_and_none_is_lost(world):
+    link, client = world.vehicles._links[0], world.clients[0]
+    sender = mavlink.MAVLink(None, srcSystem=245)
+    packets = [sender_packet(sender, n) for n in range(2 * PACKETS + 3)]
+    client.write(b"".join(packets))
+    client.write(packets[0])
+    taken = [[m.seq for m, _ in link.received()] for _ in range(4)]
+    assert taken == [
+        [*range(PACKETS)],
+        [*range(PACKETS, 2 * PACKETS)],
+        [2 * PACKETS, 2 * PACKETS + 1, 2 * PACKETS + 2, 0],
+        [],
+    ]
+
+
+def sender_packet(sender, n):
+    """A ping with a number."""
+    return mavlink.MAVLink_ping_message(0, n, 1, 1).pack(sender)
+
+
+@pytest.mark.parametrize(
+    "rubbish", [b"\0" * 2000, b"\xfd\0\0" * 600, b"\xfd\x01\x02" * 600, b"\xfe", b"\xfd\xff\x01ab", b""]
+)
+def test_after_rubbish_a_datagram_is_dropped_and_the_next_one_read(world, rubbish):
+    link, client = world.vehicles._links[0], world.clients[0]
+    packet = sender_packet(mavlink.MAVLink(None, srcSystem=245), 7)
+    client.write(packet + rubbish)
+    client.write(packet)
+    assert sum(len(list(link.received())) for _ in range(200)) == 2  # control steps
+
+
+@pytest.mark.parametrize("signed", [False, True])
+@pytest.mark.parametrize("version", [1, 2])
+def test_packets_have_the_lengths_that_pymavlink_writes(version, signed):
+    dialect = importlib.import_module(f"pymavlink.dialects.v{version}0.common")
+    sender = dialect.MAVLink(None)
+    if signed and version == 2:
+        sender.signing.secret_key, sender.signing.sign_outgoing = b"k" * 32, True
+    for message in (dialect.MAVLink_heartbeat_message(0, 0, 0, 0, 0, 3), dialect.MAVLink_ping_message(1, 2, 3, 4)):
+        packet = message.pack(sender)
+        assert length_of(packet + b"more") == len(packet)
+        assert parsed(packet).get_type() == message.get_type()

@@ -3,9 +3,11 @@
 import pytest
 from chromium import launched, new_page
 from patience import until
+from sideways import SIDEWAYS
 
 import tandemlift as tl
 from tandemlift.apps.live.replay import report_replay
+from tandemlift.pictures.figures.registry import save_figures
 from tandemlift.pictures.report.flight_report import write_report
 
 LOOKS = """() => [...document.querySelectorAll("#plots .uplot")].map((plot) => Object.fromEntries(
@@ -80,4 +82,24 @@ def test_a_drag_across_a_plot_zooms_all_plots_and_a_double_click_shows_all_again
     over.dblclick()
     page.mouse.move(5, 5)
     page.wait_for_function("w => document.querySelector('#plots canvas').toDataURL() === w", arg=whole[0])
+    page.close()
+
+
+@pytest.fixture(scope="module")
+def drawn(tmp_path_factory):
+    """A report with all figures and tables of a flight."""
+    flight, folder = tl.fly(tl.load_mission("one-push")), tmp_path_factory.mktemp("drawn")
+    save_figures(flight, folder / "figures")
+    return write_report(flight, folder / "figures", folder / "report.html")
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_figures_and_tables_fit_the_screen(browser, drawn, size):
+    width, height = SIZES[size]
+    page = new_page(browser, {"width": width, "height": height})
+    page.goto(drawn.as_uri())
+    sizes = page.locator(".sheet img").evaluate_all("all => all.map((one) => [one.naturalWidth, one.clientWidth])")
+    assert len(sizes) > 5
+    assert all(natural > seen > 250 for natural, seen in sizes)
+    assert page.evaluate(SIDEWAYS) == []
     page.close()

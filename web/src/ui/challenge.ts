@@ -6,12 +6,12 @@ import type { FlightScene, ParameterValue, StatusMessage, StatusScore } from "..
 import { same } from "../wire/parameters.ts";
 import { button, el } from "./dom.ts";
 import { timedName } from "./file_names.ts";
-import { keep, kept, keptData } from "./storage.ts";
+import { keep, keptData } from "./storage.ts";
 
-const KEPT_AS = "tandemlift.challenge";
 const EVERY = 0.1; // s between the poses that are kept of a run
 const PARTS = { time: "s", touches: "", effort: "N s", jerk: "", score: "s" } as const;
 const RULE = "Fly from your first push to the end of the corridor. The lowest score wins: seconds, 5 a touch, 1 for 5 N s, 1 a unit of jerk. The hand moves level.";
+const LATE = "This flight was pushed before: a new run counts from its first push.";
 const POSE = 7; // numbers of a pose
 
 interface Run {
@@ -26,7 +26,8 @@ export class Challenge {
   private readonly note = el("p", {}, RULE);
   private readonly actions: HTMLElement;
   private readonly handIn: HTMLElement;
-  private on = kept(KEPT_AS) === "on";
+  private on = false;
+  private late = false; // asked for in a flight that was pushed before
   private scene: FlightScene | null = null;
   private score: StatusScore | null = null;
   private start = NaN; // s, of the first push that the page has seen
@@ -40,10 +41,7 @@ export class Challenge {
     again: () => void,
     private readonly challenged: (on: boolean) => void,
   ) {
-    this.button = button("flag", "Challenge", "Score a flight through the corridor", () => {
-      this.show(!this.on);
-      keep(KEPT_AS, this.on ? "on" : "off");
-    });
+    this.button = button("flag", "Challenge", "Score a flight through the corridor", () => this.ask());
     const cells = (Object.keys(PARTS) as (keyof typeof PARTS)[]).map((name) => {
       const value = el("dd", {}, "\u2013");
       this.parts.set(name, value);
@@ -84,15 +82,15 @@ export class Challenge {
     this.score = score ?? null;
     if (score) this.start = score.start;
     if (ended) this.end(score);
-    this.actions.hidden = !score?.finished && !score?.refused;
-    this.handIn.hidden = !score?.finished || score.refused !== "";
+    this.offer();
   }
 
   /** With each picture: the clock; what was measured changes with the status. */
   tick(): void {
     if (this.element.hidden) return;
-    const { score } = this;
-    const running = score?.finished || score?.refused ? score.time : this.time - this.start;
+    const score = this.late ? null : this.score;
+    const start = this.late ? NaN : this.start;
+    const running = score?.finished || score?.refused ? score.time : this.time - start;
     for (const [name, value] of this.parts) {
       const number = name === "time" ? running : score?.[name];
       const text = number === undefined || Number.isNaN(number) ? "\u2013" : number.toFixed(name === "touches" ? 0 : 1);
@@ -106,7 +104,7 @@ export class Challenge {
   /** The best run at the moment of this one; null if there is none, or the challenge is off. */
   get rival(): Pose | null {
     const poses = this.best?.poses;
-    if (this.element.hidden || !poses?.length) return null;
+    if (this.element.hidden || this.late || !poses?.length) return null;
     const passed = Math.max((this.time - this.start || 0) / EVERY, 0);
     const first = Math.floor(passed);
     if (POSE * (first + 2) > poses.length) return null;
@@ -123,6 +121,7 @@ export class Challenge {
 
   private remark(): string {
     const { score, best } = this;
+    if (this.late) return LATE;
     if (score?.refused) return `Not ranked: ${score.refused}.`;
     const changed = [...this.altered].filter(([, on]) => on).map(([key]) => key);
     const settings = changed.length ? ` Changed settings count only if they are free: ${changed.join(", ")}.` : "";
@@ -131,7 +130,7 @@ export class Challenge {
   }
 
   private end(score: StatusScore): void {
-    if (score.refused || score.score >= (this.best?.score ?? Infinity)) return;
+    if (!this.on || this.late || score.refused || score.score >= (this.best?.score ?? Infinity)) return;
     const poses = this.poses.slice(0, POSE * (Math.floor(score.time / EVERY) + 2));
     this.best = { score: score.score, poses };
     keep(this.place, JSON.stringify(this.best));
@@ -148,7 +147,22 @@ export class Challenge {
   }
 
   private restart(): void {
-    [this.start, this.time, this.score, this.poses] = [NaN, NaN, null, []];
+    [this.start, this.time, this.score, this.poses, this.late] = [NaN, NaN, null, [], false];
+    this.offer();
+  }
+
+  /** It begins with the next push: what was flown before it was asked for does not count. */
+  private ask(): void {
+    this.late = !Number.isNaN(this.start);
+    this.show(!this.on);
+    this.offer();
+  }
+
+  /** Offers to hand in a run that counts, and to begin another where none is in progress. */
+  private offer(): void {
+    const { score, late } = this;
+    this.actions.hidden = !late && !score?.finished && !score?.refused;
+    this.handIn.hidden = late || !score?.finished || score.refused !== "";
   }
 
   private show(on: boolean): void {

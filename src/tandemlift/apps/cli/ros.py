@@ -172,8 +172,8 @@ def crazyflie(mission: str, udp_port: int, **options: Any) -> None:
     """Fly MISSION in real time, each quadrotor as a Crazyflie.
 
     Bitcraze's cflib finds them by scanning, or as udp://127.0.0.1:19850, :19851 and so on; scripts for real ones fly
-    them unchanged. The live page shows the same flight, and pushes it. The mission's own pushes, person and pilot are
-    omitted. docs/how-to/fly-with-crazyflie-clients.md lists what is simulated. Ctrl-C ends the flight.
+    the simulated ones unchanged. The live page shows the same flight, and pushes it. The mission's own pushes, person
+    and pilot are omitted. docs/how-to/fly-with-crazyflie-clients.md lists what is simulated. Ctrl-C ends the flight.
 
     \b
     Examples:
@@ -188,28 +188,36 @@ def crazyflie(mission: str, udp_port: int, **options: Any) -> None:
 @click.command()
 @click.argument("mission", default="two-x500", shell_complete=MISSIONS)
 @click.option("--udp-port", type=int, default=14540, show_default=True, help="UDP port of the first one's clients.")
+@click.option(
+    "--autopilot",
+    type=click.Choice(["generic", "px4"]),
+    default="generic",
+    show_default=True,
+    help="Named in heartbeats: with px4, pymavlink and MAVProxy know the modes by name.",
+)
 @own_loops_option
 @flying.engine_option
 @port_option
 @no_browser_option
 @flying.set_option
-def mavlink(mission: str, udp_port: int, **options: Any) -> None:
+def mavlink(mission: str, udp_port: int, autopilot: str, **options: Any) -> None:
     """Fly MISSION in real time, each quadrotor as a MAVLink vehicle.
 
-    Scripts for MAVSDK fly them unchanged. Clients of the first one listen on udpin://0.0.0.0:14540, of the second one
-    on :14541. The live page shows the same flight, and pushes it. The mission's own pushes, person and pilot are
-    omitted. Needs pip install 'tandemlift[mavlink]'. docs/how-to/fly-with-mavlink.md has modes and parameters. Ctrl-C
-    ends the flight.
+    Scripts for MAVSDK fly them unchanged, those for pymavlink with --autopilot px4. What they fly is simulated. Clients
+    of the first one listen on udpin://0.0.0.0:14540, of the second one on :14541. The live page shows the same flight,
+    and pushes it. The mission's own pushes, person and pilot are omitted. Needs pip install 'tandemlift[mavlink]'.
+    docs/how-to/fly-with-mavlink.md has modes and parameters. Ctrl-C ends the flight.
 
     \b
     Examples:
       tandemlift mavlink
       tandemlift mavlink two-x500 --set wind.velocity=[1,0,0]
+      tandemlift mavlink --autopilot px4
     """
     with extra("mavlink", "MAVLink"):
         from tandemlift.apps.clients.mavlink.vehicles import MavlinkVehicles
 
-    _fly_by_clients(mission, partial(MavlinkVehicles, port=udp_port), **options)
+    _fly_by_clients(mission, partial(MavlinkVehicles, port=udp_port, autopilot=autopilot), **options)
 
 
 def _fly_by_clients(

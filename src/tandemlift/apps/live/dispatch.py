@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import logging
 from collections.abc import Sequence
+from time import thread_time
 from typing import TYPE_CHECKING
 
 from tandemlift.apps.live.session import page_messages as page
@@ -109,6 +110,15 @@ class Dispatcher:
     async def _change(self, viewer: Viewer, message: page.PageMessage) -> None:
         async with self._saving if isinstance(message, page.SaveMessage) else self._changing:
             try:
-                self._answer(viewer, await asyncio.to_thread(self._apply, message))
+                self._answer(viewer, await asyncio.to_thread(self._apply_or_count, viewer, message))
             except Refusal as refusal:
                 viewer.refuse(refusal)
+
+    def _apply_or_count(self, viewer: Viewer, message: page.PageMessage) -> Sequence[Answer]:
+        """The answer of the flight; the work of a refusal is the viewer's, as of a file that is no mission."""
+        began = thread_time()
+        try:
+            return self._apply(message)
+        except Refusal:
+            viewer.work += thread_time() - began
+            raise

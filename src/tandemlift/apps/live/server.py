@@ -175,6 +175,8 @@ class PageServer:
         connection.transport.get_extra_info("socket").setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER)
         viewer = Viewer(connection)
         viewer.send(SceneMessage(type="scene", **self._flight.scene))
+        for frame in self._flight.past():
+            viewer.send(frame)
         self.viewers.join(viewer)
         self.viewers.send_status(self._flight.status())
         self._watched.set()
@@ -185,7 +187,9 @@ class PageServer:
                     self._dispatcher.receive(viewer, text)
                 if flooding := viewer.is_flooding():
                     break
-                await asyncio.sleep(viewer.rest())  # also when 0: messages that wait do not delay other pages
+                await asyncio.sleep(
+                    self.viewers.rest(viewer)
+                )  # also when 0: messages that wait do not delay other pages
         except ConnectionClosed:
             pass
         finally:

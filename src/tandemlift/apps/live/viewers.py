@@ -62,7 +62,7 @@ MAX_MESSAGES = 2_000  # a second; a page sends about a hundred
 FAREWELL = 1.0  # s, for pages to close their connections
 MAX_REFUSALS = 20  # that are reported in a second
 REFUSED = 10  # messages that a refused one counts as: a page is refused at the rate of its pictures, at most
-MAX_WORK = 0.05  # s of the processor in a second; the messages of a page take a hundredth of a second
+MAX_WORK, ALL_WORK = 0.05, 0.2  # of a processor, by a page, by all; the messages of a page take a hundredth
 
 
 def text_of(what: Mapping[str, Any]) -> str:
@@ -79,13 +79,15 @@ class Viewer:
         last_message: when its last message came, by the monotonic clock [s].
         last_echo: when its last echo was sent, likewise.
         last_grab: `seq` of its last grab, 0 before there is one.
+        work: time of the processor that its messages took lately [s]; passes at the rate of its share.
     """
 
     def __init__(self, connection: ServerConnection) -> None:
         self.connection, self.number = connection, 0
         self.dropped, self.last_message = 0, time.monotonic()
         self.last_grab = 0
-        self._second, self._messages, self._refusals, self._work = 0, 0, 0, 0.0
+        self._second, self._messages, self._refusals = 0, 0, 0
+        self.work = 0.0
         self._echoing, self.last_echo = False, 0.0
 
     @property
@@ -110,12 +112,12 @@ class Viewer:
         self._echoing, self.last_echo = False, time.monotonic()
         self.send_frame(frame())
 
-    def send(self, what: Mapping[str, Any] | str) -> None:
-        """Send a message, or cut off a viewer that does not read."""
+    def send(self, what: Mapping[str, Any] | str | bytes) -> None:
+        """Send a message, or a frame that it must not miss, or cut off a viewer that does not read."""
         if self.connection.transport.get_write_buffer_size() > LOST:
             self.connection.transport.abort()
         else:
-            broadcast([self.connection], what if isinstance(what, str) else text_of(what))
+            broadcast([self.connection], what if isinstance(what, str | bytes) else text_of(what))
 
     def refuse(self, refusal: Refusal) -> None:
         """Send the reason of a refused message; a few times a second at most."""
@@ -139,17 +141,12 @@ class Viewer:
         try:
             yield
         finally:
-            self._begin_second()
-            self._work += thread_time() - began
-
-    def rest(self) -> float:
-        """The wait until its next message is read [s], so that one page leaves time for the others."""
-        return 0.0 if self._work < MAX_WORK else 1.0 - time.monotonic() % 1.0
+            self.work += thread_time() - began
 
     def _begin_second(self) -> None:
         now = int(time.monotonic())
         if now != self._second:
-            self._second, self._messages, self._refusals, self._work = now, 0, 0, 0.0
+            self._second, self._messages, self._refusals = now, 0, 0
 
 
 class Viewers:
@@ -161,7 +158,7 @@ class Viewers:
     """
 
     def __init__(self) -> None:
-        self._all, self._joined = set[Viewer](), 0
+        self._all, self._joined, self._rested = set[Viewer](), 0, 0.0
         self.turns = Turns()
         self.holder: Viewer | None = None
         self.pulls = self.pushes = False
@@ -186,6 +183,19 @@ class Viewers:
         if held:
             self.let_go()
         return held or self.holder is None
+
+    def rest(self, viewer: Viewer) -> float:
+        """The wait until a viewer's next message is read [s], so that it, and all together, leave time for the flight.
+
+        A share of a second may be used at once. Where all together use more than theirs, each gets an equal part of it.
+        """
+        share, now = MAX_WORK, time.monotonic()
+        if sum(one.work for one in self) > ALL_WORK:
+            share = min(share, ALL_WORK / len(self))
+        for one in self:
+            one.work = max(one.work - share * (now - self._rested), 0.0)
+        self._rested = now
+        return max(viewer.work / share - 1.0, 0.0)
 
     def let_go(self) -> None:
         """Release the beam."""

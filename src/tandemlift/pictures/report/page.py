@@ -34,7 +34,6 @@ DASH = "–"  # a value that could not be computed
 NO_BREAK = "\u00a0"
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 SCREEN = 0.45  # CSS pixels for a dot of print: figures are read at arm's length
-WIDE = 600  # CSS pixels from where a figure scrolls sideways on a narrow screen instead of shrinking
 
 html = Markup
 """Marks text as HTML; all other text is escaped by the templates."""
@@ -149,8 +148,8 @@ def shown_figure(name: str, png: Path, caption: Caption) -> ShownFigure:
     """
     data = png.read_bytes()
     width, height = (round(SCREEN * dots) for dots in struct.unpack(">II", data[16:24]))  # of the PNG's header
-    looks = ["wide"] * (width > WIDE) + ["drawn"] * (current_style().palette != DARK)
-    return ShownFigure(name, caption, base64.b64encode(data).decode(), width, height, " ".join(looks))
+    looks = "drawn" if current_style().palette != DARK else ""
+    return ShownFigure(name, caption, base64.b64encode(data).decode(), width, height, looks)
 
 
 def shown_figures(

@@ -3,6 +3,7 @@
 import contextlib
 import itertools
 import threading
+from types import SimpleNamespace
 
 import pytest
 from patience import PATIENCE, until
@@ -10,6 +11,7 @@ from standin import StandIn
 from websockets.exceptions import InvalidStatus
 
 from tandemlift.apps.live import viewers
+from tandemlift.apps.live.session import page_messages
 from tandemlift.core.errors import InputError
 
 
@@ -102,16 +104,55 @@ def test_messages_that_wait_in_one_page_do_not_delay_those_of_another(live, monk
     two.kill()
 
 
-def test_a_page_whose_messages_take_long_waits_for_the_next_second(clock, monkeypatch):
+def test_a_page_whose_messages_take_long_waits_until_its_share_of_the_time_has_passed(clock, monkeypatch):
     worked = iter(0.6 * viewers.MAX_WORK * n for n in (0, 1, 1, 2, 2, 3))
     monkeypatch.setattr(viewers, "thread_time", lambda: next(worked))
-    viewer, rests = viewers.Viewer(None), []
-    for now in (1000.25, 1000.25, 1001.0):
+    all_viewers, viewer, rests = viewers.Viewers(), viewers.Viewer(None), []
+    all_viewers.join(viewer)
+    all_viewers.rest(viewer)
+    for now in (1000.0, 1000.0, 1000.2 + 1.0):
         clock[0] = now
         with viewer.working():
             pass
-        rests.append(viewer.rest())
-    assert rests == [0.0, 0.75, 0.0]
+        rests.append(all_viewers.rest(viewer))
+    assert rests == pytest.approx([0.0, 0.2, 0.0])  # of 1.2 shares, 0.2 have to pass
+
+
+LISTS = b'{"type":"fly","seq":1,"toml":[' + b"[]," * 20_000 + b"[]]}"  # 58 ms to parse, if it were
+TABLES = b'{"type":"fly","seq":1,"mission":"a","toml":"' + b"[a]\\n" * 12_000 + b'"}'
+
+
+def test_of_ten_pages_that_send_files_of_many_parts_none_is_parsed(live, clock, monkeypatch):
+    parsed, read = [], page_messages._ANY.validate_json
+    monkeypatch.setattr(page_messages, "_ANY", SimpleNamespace(validate_json=lambda t: (parsed.append(t), read(t))[1]))
+    pages, each = [live.raw() for _ in range(10)], 5
+    for raw in pages:
+        raw.send(*[LISTS, TABLES] * each, b'{"type":"ping","seq":2,"t":271828.5}')
+    for raw in pages:
+        raw.hear(b'"t":271828.5}')
+        raw.kill()
+    assert [text[:14] for text in parsed] == ['{"type":"ping"'] * len(pages)
+    assert live.flight.heard == []
+
+
+def test_ten_pages_together_get_no_more_of_the_processor_than_all_may_have(live, clock, monkeypatch):
+    cost, rest, done = 0.005, viewers.Viewers.rest, []
+    ticks = itertools.count()  # each message takes two looks at the clock, and so `cost`
+    monkeypatch.setattr(viewers, "thread_time", lambda: cost * next(ticks))
+    monkeypatch.setattr(viewers.Viewers, "rest", lambda all_, one: 2.0 * PATIENCE if rest(all_, one) else 0.0)
+    receive = live.server._dispatcher.receive
+    monkeypatch.setattr(live.server._dispatcher, "receive", lambda one, text: (done.append(one), receive(one, text)))
+    pages = [live.raw() for _ in range(10)]
+    until(lambda: len(live.server.viewers) == 10)
+    for raw in pages:
+        raw.send(*[b'{"type":"ping","seq":1,"t":0}'] * 100)
+    until(lambda: len(set(done)) == 10 and all(one.work * 10 > viewers.ALL_WORK for one in live.server.viewers))
+    accepted = [done.count(one) for one in live.server.viewers]
+    for raw in pages:
+        raw.kill()
+    over = 2 * cost  # of each page: the message that brought it there, and the first of all, before which none counts
+    assert sum(accepted) * cost <= viewers.ALL_WORK + viewers.MAX_WORK + 10 * over
+    assert max(accepted) * cost <= viewers.MAX_WORK + over
 
 
 def test_a_page_that_was_cut_off_keeps_its_place_for_a_while(live, clock, monkeypatch):

@@ -12,7 +12,7 @@ from websockets.exceptions import ConnectionClosed
 
 from tandemlift.apps.live.page_files import page_files
 from tandemlift.apps.live.server import PageServer
-from tandemlift.apps.live.session.frames import read_frames
+from tandemlift.apps.live.session.frames import pack_frames, read_frames
 
 MASS = {"type": "set", "key": "admittance.mass", "value": [2.0]}
 
@@ -24,6 +24,14 @@ def test_a_viewer_is_told_the_scene_then_frames_then_the_status(live):
         assert frame["attitude"].tolist() == [[1.0, 0.0, 0.0, 0.0]]
         status = viewer.text("status")
         assert (status["viewers"], status["holder"], status["phase"]) == (1, "none", "guided")
+
+
+def test_a_page_that_joins_late_is_told_the_past_before_what_is_new(live, monkeypatch):
+    past = [pack_frames(live.flight.fields, {"time": t / 20.0 - 100.0}).tobytes() for t in range(400)]
+    monkeypatch.setattr(live.flight, "past", lambda: past)
+    with live.viewer(), live.viewer() as late:
+        assert [late.frame() for _ in past] == past
+        assert read_frames(live.flight.fields, late.frame())["time"].item() >= 0.0
 
 
 def test_time_goes_on_from_frame_to_frame(live):

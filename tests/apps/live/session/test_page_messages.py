@@ -11,6 +11,7 @@ from hostile import GOOD, hostile
 
 from tandemlift.apps.live.session import page_messages as reading
 from tandemlift.apps.live.session.page_messages import (
+    MAX_FILE_PARTS,
     MAX_LENGTH,
     MAX_PARTS,
     MAX_SIZE,
@@ -19,6 +20,7 @@ from tandemlift.apps.live.session.page_messages import (
     read_message,
     subject_of,
 )
+from tandemlift.missions.reference import template_text
 
 MANY = 10_000
 
@@ -95,13 +97,35 @@ def test_what_is_too_long_or_has_too_many_parts_is_refused_before_it_is_parsed(l
 
 
 def test_a_message_with_a_file_may_be_as_long_as_a_page_may_send():
-    toml = "[[walls]]\n" * 5_000
+    toml = "# walls\n" * 6_000
     with_file = json.dumps({"type": "fly", "seq": 1, "mission": "mine.toml", "toml": toml}, separators=(",", ":"))
     assert MAX_LENGTH < len(with_file) < MAX_SIZE
     assert read_message(with_file).toml == toml
     assert f"must be {MAX_SIZE} at most" in str(refused(with_file + " " * MAX_SIZE))
     assert f"must be {MAX_LENGTH} at most" in str(refused(json.dumps(json.loads(with_file))))  # it begins otherwise
-    assert "12 at most" in str(refused('{"type":"fly",' + ",".join(f'"{i}":1' for i in range(5_000)) + "}"))
+    assert "12 at most" in str(refused('{"type":"fly",' + ",".join(f'"{i}":1' for i in range(100)) + "}"))
+
+
+@pytest.mark.parametrize(
+    ("many", "most"),
+    [
+        ('{"type":"fly",' + ",".join(f'"{i}":1' for i in range(5_000)) + "}", MAX_PARTS),
+        ('{"type":"fly","toml":[' + "[]," * 9_000 + "[]]}", MAX_PARTS),
+        ('{"type":"fly","toml":"\\"' + '[\\"' * 9_000, MAX_FILE_PARTS),  # without an end
+        ('{"type":"fly","seq":1,"mission":"a","toml":"' + "a=1\\n" * 5_000 + '"}', MAX_FILE_PARTS),
+    ],
+)
+def test_how_a_message_begins_lifts_no_limit_of_its_parts(many, most, monkeypatch):
+    monkeypatch.setattr(reading, "_ANY", None)
+    monkeypatch.setattr(reading, "from_json", None)
+    assert re.search(f"parts: must be {most} at most", str(refused(many)))
+
+
+def test_a_mission_with_every_key_has_fewer_parts_than_are_read():
+    toml = template_text()
+    message = json.dumps({"type": "fly", "seq": 1, "mission": "a", "toml": toml}, separators=(",", ":"))
+    assert 4 * sum(map(toml.count, ",[{=")) < MAX_FILE_PARTS * 1.1
+    assert len(message) > MAX_SIZE or read_message(message).toml == toml
 
 
 def test_the_longest_message_has_fewer_parts_and_characters_than_are_read():

@@ -8,6 +8,7 @@ from patience import COMPILING, PATIENCE, until
 from sessions import fly, say, seen, unprepared
 
 import tandemlift as tl
+from tandemlift.apps.live.session.frames import read_frames
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.apps.live.session.page_messages import PAGE_MESSAGES, CompareMessage, PingMessage, TurnMessage
 from tandemlift.apps.live.session.session import Session
@@ -148,3 +149,27 @@ def test_a_body_that_waits_is_told_of_a_pause(session):
     say(session, "pause", on=True)
     session.flight._stepper.body = body = Waiting()
     until(lambda: body.rests > 3)
+
+
+def test_a_page_that_joins_gets_the_frames_that_others_saw_in_the_last_seconds(session):
+    fields, shown = tuple((name, count) for name, count in session.scene["fields"]), {}
+    for _ in range(240):  # 24 s
+        fly(session, 0.1)
+        if session.flight.step * session.flight.dt > 1.0:
+            say(session, "force", force=(0.5, 0.0, 0.0), point=(0.0, 0.0, 0.0))
+        frame = seen(session)
+        shown[round(float(frame["time"].item()), 3)] = frame
+    past = read_frames(fields, b"".join(session.past()))
+    time = past["time"].ravel()
+    assert np.diff(time) == pytest.approx(0.05, abs=1e-5)  # as the page keeps them
+    assert time[-1] - time[0] == pytest.approx(20.0, abs=1e-4)
+    assert time[-1] == seen(session)["time"]
+    among = [i for i, t in enumerate(time) if round(float(t), 3) in shown]
+    assert len(among) > 100
+    for name in ("position", "attitude", "push", "reference", "disturbance", "thrusts"):
+        np.testing.assert_array_equal(past[name][among], [shown[round(float(time[i]), 3)][name] for i in among])
+    assert past["push"][-1] == pytest.approx([0.5, 0.0, 0.0], abs=1e-3)
+
+
+def test_before_a_flight_is_compiled_there_is_no_past(tmp_path):
+    assert unprepared(tmp_path).past() == []

@@ -66,9 +66,11 @@ class Endpoint:
             for answer in self.device.receive(packet):
                 self._send(answer, address)
 
-    def tick(self, flight_time: float) -> None:
-        """Go on to a time of the flight [s]."""
+    def tick(self, flight_time: float, again: bool = False) -> None:
+        """Go on to a time of the flight [s], of one that begins `again`."""
         with self.lock:
+            if again:
+                self.device.restart()
             for packet in self.device.tick(flight_time):
                 if self._client is not None and not self._is_silent():
                     self._send(packet, self._client)
@@ -150,12 +152,9 @@ class CrazyflieServer:
 
     def _tick(self, now: float) -> None:
         """Go on to a time of the flight [s]; an earlier one than before begins a new flight."""
-        if now < self._now:
-            for device in self.devices:
-                device.restart()
-        self._now = now
+        again, self._now = now < self._now, now
         for one in self._endpoints:
-            one.tick(now)
+            one.tick(now, again)
 
 
 def channels_of(flight: RealTimeFlight) -> dict[str, Channel]:

@@ -63,7 +63,7 @@ def message(kind: int, number: int, autopilot: Autopilot) -> Any:
         case mavlink.MAVLINK_MSG_ID_HEARTBEAT:
             mode = mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED | armed * mavlink.MAV_MODE_FLAG_SAFETY_ARMED
             status = mavlink.MAV_STATE_ACTIVE if armed else mavlink.MAV_STATE_STANDBY
-            made = mavlink.MAV_TYPE_QUADROTOR, mavlink.MAV_AUTOPILOT_GENERIC
+            made = mavlink.MAV_TYPE_QUADROTOR, autopilot.kind
             return mavlink.MAVLink_heartbeat_message(*made, mode, autopilot.mode.custom, status, 3)
         case mavlink.MAVLINK_MSG_ID_SYS_STATUS:
             return mavlink.MAVLink_sys_status_message(*[SENSORS] * 3, 0, UNKNOWN, -1, 100, *[0] * 6)

@@ -33,6 +33,7 @@ HOLD, TAKEOFF, LAND, OFFBOARD = (
     MavlinkMode("offboard", 6),
 )
 MODES = {(mode.main, mode.sub): mode for mode in (HOLD, TAKEOFF, LAND, OFFBOARD)}
+AUTOPILOTS = {"generic": 0, "px4": 12}  # MAV_AUTOPILOT, by which clients choose their names and numbers of modes
 LOSS_TIME, LOSS_ACTION, HEIGHT = "COM_OF_LOSS_T", "COM_OBL_RC_ACT", "MIS_TAKEOFF_ALT"
 CLIMB, SINK = "MPC_TKO_SPEED", "MPC_LAND_SPEED"
 ACTIONS = {4.0: LAND, 5.0: HOLD}  # of the failsafe
@@ -48,7 +49,7 @@ DEEPEST = 1.0  # m below the start, where a landing ends, so that the rotors let
 
 
 class Autopilot:
-    """The modes of one quadrotor, whose `parameters` may change.
+    """The modes of one quadrotor, whose `parameters` may change; its heartbeats name a `kind` of autopilot.
 
     Attributes:
         state: the last one.
@@ -57,8 +58,8 @@ class Autopilot:
         crew: the autopilots of all quadrotors on the body, itself among them: armed ones land and disarm together.
     """
 
-    def __init__(self, state: QuadrotorState, parameters: Mapping[str, float]) -> None:
-        self.state, self.origin, self._parameters = state, state.position, parameters
+    def __init__(self, state: QuadrotorState, parameters: Mapping[str, float], kind: int = 0) -> None:
+        self.kind, self.state, self.origin, self._parameters = kind, state, state.position, parameters
         self.armed, self.crew = False, [self]
         self.failsafe: MavlinkMode | None = None
         self._setpoint: Setpoint = Stop()

@@ -16,14 +16,15 @@ from typing import Any, Self
 from tandemlift import InputError
 from tandemlift.apps.clients.flight import RealTimeFlight
 from tandemlift.apps.clients.mavlink.messages import RATES, attitude_setpoint, mavlink, message, position_setpoint
-from tandemlift.apps.clients.mavlink.modes import LAND, MODES, Autopilot
+from tandemlift.apps.clients.mavlink.modes import AUTOPILOTS, LAND, MODES, Autopilot
 from tandemlift.apps.clients.mavlink.parameters import MavlinkParameters
 from tandemlift.apps.clients.mission_numbers import mission_numbers
 from tandemlift.apps.clients.quadrotors import Quadrotors
 
 HOST, PORT, OWN = "127.0.0.1", 14540, 40  # where clients of the first quadrotor listen; to add for its own port
 MOST = 8  # other clients of a quadrotor; whoever was silent for longest makes way
-DATAGRAMS = 8  # that are read between two control steps; the system keeps others, as far as it has room
+PACKETS = 8  # that are read between two control steps; others wait, as far as the system has room
+MAVLINK_2, OVERHEAD, SIGNATURE = 0xFD, {0xFD: 12, 0xFE: 8}, 13  # first byte; bytes beside a payload, by first byte
 FASTEST, AGAIN = 0.002, 1.0  # s, between two messages of a kind; before a text is repeated
 FORCE = 21196.0  # by which COMPONENT_ARM_DISARM disarms in the air; MAVLink
 TUMBLED = "tumbled: rotors stopped until the flight is reset"
@@ -36,6 +37,7 @@ class VehicleLink:
         self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self.socket.setblocking(False)
         self._listener, self._others = (HOST, port + number - 1), list[tuple[str, int]]()
+        self._unread, self._sender = b"", ("", 0)
         self.send = mavlink.MAVLink(self, number, mavlink.MAV_COMP_ID_AUTOPILOT1).send
         try:
             self.socket.bind((HOST, port + OWN + number - 1))
@@ -45,14 +47,19 @@ class VehicleLink:
             raise InputError(f"{text}; end its program, or give --udp-port") from None
 
     def received(self) -> Iterator[tuple[Any, object]]:
-        """The messages that have arrived, each with its sender."""
+        """The messages that have arrived, each with its sender: a few at a time, which the flight does not feel."""
         with suppress(BlockingIOError):
-            for _ in range(DATAGRAMS):
-                data, sender = self.socket.recvfrom(2048)
-                for m in parsed(data):
-                    if sender != self._listener:
-                        self._others = [*(other for other in self._others if other != sender), sender][-MOST:]
-                    yield m, sender
+            for _ in range(PACKETS):
+                if not self._unread:
+                    self._unread, self._sender = self.socket.recvfrom(2048)
+                length = length_of(self._unread)
+                m, rest = parsed(self._unread[:length]), self._unread[length:]
+                self._unread = rest if m and length_of(rest) else b""
+                if m is None or isinstance(m, mavlink.MAVLink_unknown):  # pymavlink has checked none of these
+                    continue
+                if (sender := self._sender) != self._listener:
+                    self._others = [*(other for other in self._others if other != sender), sender][-MOST:]
+                yield m, sender
 
     def write(self, data: bytes) -> None:
         """Send a packet to all clients; what a socket does not take is lost, as by radio."""
@@ -61,23 +68,31 @@ class VehicleLink:
                 self.socket.sendto(data, client)
 
 
-def parsed(data: bytes) -> list[Any]:
-    """The messages of a datagram, without what is none; each datagram is read for itself."""
-    parser = mavlink.MAVLink(None)
-    parser.robust_parsing = True
+def length_of(data: bytes) -> int:
+    """The length of the packet with which data begin; 0 if they begin with none."""
+    flags = data[2] if len(data) > 2 and data[0] == MAVLINK_2 else 0  # 1: signed; others are not known here
+    if len(data) < 3 or data[0] not in OVERHEAD or flags > 1:
+        return 0
+    return OVERHEAD[data[0]] + data[1] + SIGNATURE * flags
+
+
+def parsed(packet: bytes) -> Any:
+    """The message of a packet, or None."""
     try:
-        return [m for m in parser.parse_buffer(data) or () if m.get_type() != "BAD_DATA"]
-    except (mavlink.MAVError, struct.error, ValueError):
-        return []
+        return mavlink.MAVLink(None).decode(bytearray(packet)) if packet else None
+    except (mavlink.MAVError, struct.error, ValueError, IndexError):
+        return None
 
 
 class MavlinkVehicle:
-    """The quadrotor with a number from 1 on, as a MAVLink vehicle with an `autopilot`."""
+    """The quadrotor with a number from 1 on, as a MAVLink vehicle with an `autopilot` of a kind in `AUTOPILOTS`."""
 
-    def __init__(self, quadrotors: Quadrotors, number: int, link: VehicleLink, parameters: MavlinkParameters) -> None:
+    def __init__(
+        self, quadrotors: Quadrotors, number: int, link: VehicleLink, parameters: MavlinkParameters, kind: str
+    ) -> None:
         self._quadrotors, self._i, self.number = quadrotors, number - 1, number
         self._link, self._parameters = link, parameters
-        self.autopilot = Autopilot(quadrotors.state(self._i), parameters.modes)
+        self.autopilot = Autopilot(quadrotors.state(self._i), parameters.modes, AUTOPILOTS[kind])
         self._max_thrust = 4.0 * quadrotors.vehicle.quadrotors[self._i].thrust_limit
         self._first = {kind: 1.0 / rate if rate else math.inf for kind, rate in RATES.items()}
         self._periods, self._due = dict(self._first), dict.fromkeys(RATES, 0.0)
@@ -199,14 +214,21 @@ class MavlinkVehicle:
 class MavlinkVehicles:
     """All quadrotors as MAVLink `vehicles`, whose ports are held while it is entered.
 
-    Keys and channels of a `flight` are among the parameters; clients of the first quadrotor listen at `port`.
+    Keys and channels of a `flight` are among the parameters; clients of the first quadrotor listen at `port`. The
+    heartbeats name an `autopilot` of `AUTOPILOTS`.
     """
 
-    def __init__(self, quadrotors: Quadrotors, flight: RealTimeFlight | None = None, port: int = PORT) -> None:
+    def __init__(
+        self,
+        quadrotors: Quadrotors,
+        flight: RealTimeFlight | None = None,
+        port: int = PORT,
+        autopilot: str = "generic",
+    ) -> None:
         self.keys = {f"{table}.{name}": one for table, name, one in mission_numbers(flight)} if flight else {}
         self.readings = {f"{channel}.{column}": read for channel, column, read in flight.channels()} if flight else {}
         self.vehicles, self._links, self._now = list[MavlinkVehicle](), list[VehicleLink](), 0.0
-        self._quadrotors, self._port = quadrotors, port
+        self._quadrotors, self._port, self._kind = quadrotors, port, autopilot
         self.addresses = [f"udpin://0.0.0.0:{port + i}" for i in range(quadrotors.count)]
         quadrotors.ticks.append(self.tick)
 
@@ -229,7 +251,7 @@ class MavlinkVehicles:
         """Exchange messages and setpoints, at a time of the flight [s]."""
         if not self.vehicles or now < self._now:  # a flight begins
             self.vehicles = [
-                MavlinkVehicle(self._quadrotors, number, link, MavlinkParameters(self.keys, self.readings))
+                MavlinkVehicle(self._quadrotors, number, link, MavlinkParameters(self.keys, self.readings), self._kind)
                 for number, link in enumerate(self._links, 1)
             ]
             crew = [vehicle.autopilot for vehicle in self.vehicles]

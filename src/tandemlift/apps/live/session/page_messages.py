@@ -27,6 +27,8 @@ MAX_LENGTH = 4_096  # characters that are read: twice what the longest message w
 WITH_FILE = '{"type":"fly",'  # begins a message that may be as long as MAX_SIZE, as it has the content of a file
 MAX_KEYS = 12
 MAX_PARTS = 128  # values and tables that are read: more than any message has
+MAX_FILE_PARTS = 4_096  # likewise, with those of a file: four times what a mission with every key has
+_STRING = re.compile(r'"(?:[^"\\]|\\.)*+"?', re.DOTALL)  # also one without its end: no text is looked at twice
 
 
 def _key(key: str) -> str:
@@ -249,16 +251,17 @@ def read_message(text: str | bytes) -> PageMessage:
 
     Raises:
         Refusal: it is too long, no JSON, or breaks the schema; the reason names the key, the value and what is allowed.
-            Length and parts are counted before anything is parsed, so that no text takes long.
+            Length and parts, of the message and of a file in it, are counted before anything is parsed, so that no
+            text takes long.
     """
     if isinstance(text, bytes):
         raise Refusal("message", "binary data: must be text, a JSON object")
-    longest, counted = (MAX_SIZE, "") if text.startswith(WITH_FILE) else (MAX_LENGTH, ",[{")
+    longest = MAX_SIZE if text.startswith(WITH_FILE) else MAX_LENGTH
     if len(text) > longest:
         raise Refusal("message", f"{len(text)} characters: must be {longest} at most")
-    parts = sum(map(text.count, counted))
-    if parts > MAX_PARTS:
-        raise Refusal("message", f"{parts} parts: must be {MAX_PARTS} at most")
+    for counted, most in ((_STRING.sub("", text), MAX_PARTS), (text, MAX_FILE_PARTS)):
+        if (parts := sum(map(counted.count, ",[{="))) > most:
+            raise Refusal("message", f"{parts} parts: must be {most} at most")
     try:
         message: PageMessage = _ANY.validate_json(text)
     except ValidationError:

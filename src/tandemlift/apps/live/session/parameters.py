@@ -171,6 +171,7 @@ class ParameterControl:
         Raises:
             InputError: there is no such parameter, or the value is out of bounds or cannot be taken in flight.
         """
+        value = list(value) if isinstance(value, tuple) else value
         self._check(key, value)
         return self._set_to(flight, key, [value] * len(keys_of(self.first, key)))
 

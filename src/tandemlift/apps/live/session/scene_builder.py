@@ -27,6 +27,7 @@ SPRING = server.SceneSpring(stiffness=8.0, damping=2.0, max_force=8.0)  # of a p
 WALL_THICKNESS = 0.02  # m, as drawn; walls have none
 TURNING = ("blades", "rotor")  # begin the names of the shapes that turn
 DIGITS = 6  # decimals of shapes [m]
+PAST, PAST_RATE = 20, 20  # s that a page's plots show; samples that they keep of a second
 
 
 def scene_of(mission: Mission, engine: str) -> server.FlightScene:
@@ -169,6 +170,16 @@ class FrameBuilder:
         """The values of the fields in a sample, at a time [s], component by component."""
         channels = {name: tuple(map(float, sample[columns])) for name, columns in self._columns.items()}
         return frames.field_values(channels, at, self._phases)
+
+    def past(self, time: Array, samples: Array) -> list[bytes]:
+        """The frames of the last seconds of a log, of samples (n, …) at times (n,) [s], oldest first."""
+        last = len(time) - 1
+        every = max(round(last / (PAST_RATE * time[-1])), 1) if last else 1
+        seen = slice(max(last - PAST_RATE * PAST * every, last % every), None, every)
+        time, samples = time[seen], samples[seen]
+        channels = {name: frames.components_of(samples[:, columns]) for name, columns in self._columns.items()}
+        values = frames.arrays_of(frames.field_values(channels, time, self._phases))
+        return [row.tobytes() for row in frames.pack_frames(self._layout, values, len(time))]
 
     def frame(self, values: Mapping[str, ArrayLike]) -> bytes:
         """The frame of some values."""

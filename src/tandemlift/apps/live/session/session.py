@@ -152,6 +152,11 @@ class Session:
         points = {"hand_point": hand.grip, "hand_target": hand.target, "push_point": hand.grip}
         return frames.frame({**frames.values(*moment), **points, "held": hand.held, "seq": seq % 2**24})
 
+    def past(self) -> list[bytes]:
+        """The frames of the last seconds, oldest first, for the plots of a page that joins; without hand and ghost."""
+        with self._lock:
+            return self._frames.past(*self._flight.logged()) if self.is_ready else []
+
     def channels(self) -> dict[str, Any]:
         """The channels of the latest sample (1, …)."""
         return dict(channels_of(self._flight.layout, self._flight.sample[None, :].copy()))
@@ -161,11 +166,9 @@ class Session:
         if not self.is_ready:
             return self._preparation.status()
         with self._lock:
-            vehicle = self._frames.scene["vehicle"]
-            status = status_of(self._flight, self.pacer, self._values(), vehicle, self._failed)
+            status = status_of(self._flight, self.pacer, self._values(), self._frames.scene["vehicle"], self._failed)
             self._findings.look(self._flight)
-        self._findings.add_to(status)
-        return status
+        return self._findings.added_to(status)
 
     @property
     def refusals(self) -> Refusals:
@@ -285,8 +288,7 @@ class Session:
 
     @_handle.register
     def _set(self, m: page.SetMessage) -> list[server.Answer]:
-        value = list(m.value) if isinstance(m.value, tuple) else m.value
-        return self._with_scene(self._parameters.set(self._flight, m.key, value))
+        return self._with_scene(self._parameters.set(self._flight, m.key, m.value))
 
     @_handle.register
     def _restore(self, m: page.RestoreMessage) -> list[server.Answer]:

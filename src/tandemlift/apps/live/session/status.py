@@ -73,11 +73,12 @@ class FlightFindings:
             self._of, self._due = flight, flight.step + round(FINDINGS_EVERY / flight.dt)
             self._numbers = flight.numbers()
 
-    def add_to(self, status: server.FlightStatus) -> None:
-        """Add the findings at the last update, and the score so far; the flight may continue meanwhile."""
+    def added_to(self, status: server.FlightStatus) -> server.FlightStatus:
+        """The status with the findings at the last update, and the score so far; the flight may continue meanwhile."""
         status["findings"] = self._formed()
         if self._of and (score := score_so_far(self._of)):
             status["score"] = score
+        return status
 
     def _formed(self) -> list[server.StatusFinding]:
         flight, numbers = self._of, self._numbers
