@@ -5,8 +5,10 @@ The memory for reading TOML grows with the square of the number of a key's parts
 
 from __future__ import annotations
 
+import errno
 import re
 import secrets
+import shutil
 import tomllib
 import zipfile
 from collections.abc import Iterator, Mapping
@@ -34,21 +36,66 @@ def versions(engine: str) -> Mapping[str, str]:
 def atomic_write(path: Path) -> Iterator[Path]:
     """A temporary path to write to, renamed to `path` at the end; if writing fails, `path` stays as it was.
 
-    Its name has a random part, because machines that share a folder may have processes with the same number.
+    Raises:
+        OSError: writing failed; it names `path`.
     """
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_name(f".{path.name}.{secrets.token_hex(6)}.partial")
-    try:
+    with _aside(path, path) as partial:
+        path.parent.mkdir(parents=True, exist_ok=True)
         yield partial
         partial.replace(path)
+
+
+@contextmanager
+def write_together(folder: Path) -> Iterator[Path]:
+    """A temporary folder to write to; its files are moved to `folder` at the end: all, or none if writing fails."""
+    with _aside(folder, folder / "files") as partial:
+        partial.mkdir(parents=True)
+        yield partial
+        _move({path: folder / path.relative_to(partial) for path in partial.rglob("*") if path.is_file()})
+
+
+@contextmanager
+def _aside(path: Path, beside: Path) -> Iterator[Path]:
+    """A temporary path that stands for another one; random, because machines that share a folder share numbers."""
+    partial = beside.with_name(f".{beside.name}.{secrets.token_hex(6)}.partial")
+    try:
+        yield partial
+    except OSError as error:  # that of a full disk has no name, others have the temporary one
+        if error.errno is None:
+            raise
+        name = Path(str(error.filename or path).replace(str(partial), str(path)))
+        raise OSError(error.errno, error.strerror, str(name)) from error
     finally:
-        partial.unlink(missing_ok=True)
+        shutil.rmtree(partial) if partial.is_dir() else partial.unlink(missing_ok=True)
+
+
+def _move(files: Mapping[Path, Path]) -> None:
+    """Move all files to their places, or none if a folder is in one; an interrupt is raised after the last."""
+    for path in files.values():
+        if path.is_dir():
+            raise IsADirectoryError(errno.EISDIR, "it is a folder", str(path))
+    try:
+        for partial, path in files.items():
+            if partial.exists():  # not moved yet
+                path.parent.mkdir(parents=True, exist_ok=True)
+                partial.replace(path)
+    except KeyboardInterrupt:
+        _move(files)
+        raise
 
 
 def write_file(path: Path, content: str | bytes) -> None:
     """Write a whole file atomically; a text in UTF-8."""
     with atomic_write(path) as partial:
         partial.write_bytes(content.encode() if isinstance(content, str) else content)
+
+
+def write_files(folder: Path, contents: Mapping[str, str | bytes]) -> list[Path]:
+    """Write whole files, by their names, into a folder: all, or none if writing fails; their paths."""
+    with write_together(folder) as aside:
+        for name, content in contents.items():
+            write_file(aside / name, content)
+    return [folder / name for name in contents]
 
 
 def check_own(path: Path, mark: str) -> None:
