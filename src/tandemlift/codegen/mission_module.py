@@ -22,9 +22,10 @@ from tandemlift.compiler.machine_code.code import Written
 from tandemlift.compiler.machine_code.machine import MACHINES, Machine, machine_named, object_code
 from tandemlift.compiler.machine_code.wasm_linker import linked
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import __version__, write_files
+from tandemlift.core.files import __version__
 from tandemlift.core.types import flat, leaves
 from tandemlift.flight.channels import channel_of
+from tandemlift.flight.file_set import write_files
 from tandemlift.missions import Mission, MissionLike, mission_of, tables_of
 from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.parameter_changes import hand_place

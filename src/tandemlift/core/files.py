@@ -5,16 +5,13 @@ The memory for reading TOML grows with the square of the number of a key's parts
 
 from __future__ import annotations
 
-import errno
 import re
 import secrets
 import shutil
 import tomllib
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import cache
-from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -25,13 +22,6 @@ DATA = Path(__file__).resolve().parents[1] / "data"  # missions, pages, template
 FLIGHT_FILE = "flight.npz"  # in the folder of a run
 
 
-@cache
-def versions(engine: str) -> Mapping[str, str]:
-    """Versions of the packages that a flight in an engine uses."""
-    packages = ("llvmlite", "numpy", *(["mujoco"] if engine == "mujoco" else []))
-    return {"tandemlift": __version__, **{name: metadata.version(name) for name in packages}}
-
-
 @contextmanager
 def atomic_write(path: Path) -> Iterator[Path]:
     """A temporary path to write to, renamed to `path` at the end; if writing fails, `path` stays as it was.
@@ -39,23 +29,14 @@ def atomic_write(path: Path) -> Iterator[Path]:
     Raises:
         OSError: writing failed; it names `path`.
     """
-    with _aside(path, path) as partial:
+    with aside(path, path) as partial:
         path.parent.mkdir(parents=True, exist_ok=True)
         yield partial
         partial.replace(path)
 
 
 @contextmanager
-def write_together(folder: Path) -> Iterator[Path]:
-    """A temporary folder to write to; its files are moved to `folder` at the end: all, or none if writing fails."""
-    with _aside(folder, folder / "files") as partial:
-        partial.mkdir(parents=True)
-        yield partial
-        _move({path: folder / path.relative_to(partial) for path in partial.rglob("*") if path.is_file()})
-
-
-@contextmanager
-def _aside(path: Path, beside: Path) -> Iterator[Path]:
+def aside(path: Path, beside: Path) -> Iterator[Path]:
     """A temporary path that stands for another one; random, because machines that share a folder share numbers."""
     partial = beside.with_name(f".{beside.name}.{secrets.token_hex(6)}.partial")
     try:
@@ -69,33 +50,10 @@ def _aside(path: Path, beside: Path) -> Iterator[Path]:
         shutil.rmtree(partial) if partial.is_dir() else partial.unlink(missing_ok=True)
 
 
-def _move(files: Mapping[Path, Path]) -> None:
-    """Move all files to their places, or none if a folder is in one; an interrupt is raised after the last."""
-    for path in files.values():
-        if path.is_dir():
-            raise IsADirectoryError(errno.EISDIR, "it is a folder", str(path))
-    try:
-        for partial, path in files.items():
-            if partial.exists():  # not moved yet
-                path.parent.mkdir(parents=True, exist_ok=True)
-                partial.replace(path)
-    except KeyboardInterrupt:
-        _move(files)
-        raise
-
-
 def write_file(path: Path, content: str | bytes) -> None:
     """Write a whole file atomically; a text in UTF-8."""
     with atomic_write(path) as partial:
         partial.write_bytes(content.encode() if isinstance(content, str) else content)
-
-
-def write_files(folder: Path, contents: Mapping[str, str | bytes]) -> list[Path]:
-    """Write whole files, by their names, into a folder: all, or none if writing fails; their paths."""
-    with write_together(folder) as aside:
-        for name, content in contents.items():
-            write_file(aside / name, content)
-    return [folder / name for name in contents]
 
 
 def check_own(path: Path, mark: str) -> None:

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.core.errors import InputError, without_flight_warnings
-from tandemlift.core.files import FLIGHT_FILE, write_file, write_together
+from tandemlift.core.files import FLIGHT_FILE, write_file
 from tandemlift.core.findings import Finding
 from tandemlift.core.refusals import Refusals
 from tandemlift.core.types import Array, flat, leaves, unflat
@@ -61,13 +61,12 @@ class FlightSnapshot:
         return save_flight(folder, self.flown, self.engine)
 
     def save_mission(self, folder: Path) -> None:
-        """Write mission and hand into a folder, both or none."""
+        """Write mission and hand into a folder."""
         steps = np.array([k for k, _ in self.hand], dtype=np.int64)
         hands = np.reshape([hand for _, hand in self.hand], (len(steps), WIDTH))
+        write_recording(folder / HAND, Recording(steps, hands, self.engine))
         comment = f"# Flies again, in the engine {self.engine}: tandemlift run {MISSION}\n\n"
-        with write_together(folder) as aside:
-            write_recording(aside / HAND, Recording(steps, hands, self.engine))
-            write_file(aside / MISSION, comment + self._toml(folder.name))
+        write_file(folder / MISSION, comment + self._toml(folder.name))
 
     def alone(self) -> Flight:
         """The flight by itself, with a mission of the same length that has neither hand nor changes."""

@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import write_files
 from tandemlift.core.types import Array
+from tandemlift.flight.file_set import write_files
 from tandemlift.missions import Mission, MissionTemplate, format_toml, tables_of
 
 MISSION, JSON = "vehicle.toml", "identification.json"

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from tandemlift.analysis.linearization.kinks import Kink
 from tandemlift.core.errors import InputError, extra
-from tandemlift.core.files import atomic_write, write_file, write_together
+from tandemlift.core.files import atomic_write, write_file
 from tandemlift.core.types import Array
 from tandemlift.flight.state_variables import Variable
 
@@ -152,11 +152,7 @@ class LinearModel:
         about |= {"kinks": [kink.text for kink in self.kinks], "left_out": self.left_out}
         texts = {kind: np.array(rows, dtype=str).reshape(-1, 2) for kind, rows in names.items()}
         numbers = {"step": self.step, "time": self.time, "about": json.dumps(about)}
-        with (
-            write_together(path.parent) as aside,
-            atomic_write(aside / path.name) as partial,
-            partial.open("wb") as file,
-        ):
+        with atomic_write(path) as partial, partial.open("wb") as file:
             if path.suffix == ".npz":
                 np.savez_compressed(file, **{**numbers, **arrays, **texts})
             elif path.suffix == ".json":
@@ -169,7 +165,7 @@ class LinearModel:
                 savemat(file, {**numbers, **arrays, **{kind: rows.astype(object) for kind, rows in texts.items()}})
                 name = re.sub(r"\W", "_", f"{path.stem}_plots", flags=re.ASCII)
                 script = (files("tandemlift") / "data" / "linear_model.m").read_text("utf-8")
-                write_file(aside / f"{name}.m", script.replace("@FILE@", path.name).replace("@NAME@", name))
+                write_file(path.with_name(f"{name}.m"), script.replace("@FILE@", path.name).replace("@NAME@", name))
 
 
 def connecting_states(A: Array, B: Array, C: Array) -> NDArray[np.intp]:

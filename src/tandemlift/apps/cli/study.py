@@ -15,7 +15,8 @@ from tandemlift.apps.cli.completion import CONTROLLERS, MISSIONS, names, separat
 from tandemlift.apps.cli.console import compile_notices, echo, progress_bar
 from tandemlift.apps.export.results import results_folder
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import parse_setting, write_files
+from tandemlift.core.files import parse_setting
+from tandemlift.flight.file_set import write_files
 
 if TYPE_CHECKING:
     from tandemlift.analysis.studies.comparison import MissionComparison
