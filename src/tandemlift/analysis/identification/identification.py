@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.core.errors import InputError
+from tandemlift.core.files import write_file
 from tandemlift.core.types import Array
-from tandemlift.flight.file_set import write_files
 from tandemlift.missions import Mission, MissionTemplate, format_toml, tables_of
 
 MISSION, JSON = "vehicle.toml", "identification.json"
@@ -102,8 +102,10 @@ class Identification:
 
     def save(self, folder: Path) -> list[Path]:
         """Write `vehicle.toml` and `identification.json` into a folder, which is made."""
-        whole = json.dumps(self.as_dict(), indent=1, ensure_ascii=False, allow_nan=False)
-        return write_files(folder, {MISSION: self.toml(), JSON: whole})
+        folder.mkdir(parents=True, exist_ok=True)
+        write_file(folder / MISSION, self.toml())
+        write_file(folder / JSON, json.dumps(self.as_dict(), indent=1, ensure_ascii=False, allow_nan=False))
+        return [folder / MISSION, folder / JSON]
 
     def toml(self) -> str:
         """The mission as TOML; each identified key that it has, has its interval as a comment."""
