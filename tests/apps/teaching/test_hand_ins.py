@@ -178,6 +178,13 @@ while not os.path.exists({file!r}):
 """
 
 
+def test_a_folder_may_be_given_by_a_relative_path(exercises, tmp_path, monkeypatch):
+    handed_in(tmp_path / "in", "anna", NAME, RIGHT)
+    monkeypatch.chdir(tmp_path)
+    _, said = graded(Path("in"), "--exercises", "exercises", "--seconds", "3600")
+    assert said.splitlines()[1].split() == ["anna", "2", "2"]
+
+
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="orphans are found under Linux")
 @pytest.mark.parametrize("end", ["", "os._exit(0)", "raise SystemExit", "os.fork()"])
 def test_what_a_notebook_has_started_ends_with_it_in_whatever_session_it_is(end, exercises, tmp_path):

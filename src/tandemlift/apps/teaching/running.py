@@ -191,7 +191,7 @@ class _Running:
         self.grade: Grade | None = None  # once it has ended
         self.pipe, there = os.pipe()
         os.set_blocking(self.pipe, False)
-        given = notebook, checks, there, memory, os.getpid()
+        given = notebook._replace(path=notebook.path.absolute()), checks, there, memory, os.getpid()
         self.process = multiprocessing.get_context("fork").Process(target=_watch, args=given)
         self.process.start()
         os.close(there)
