@@ -7,7 +7,8 @@ import tempfile
 import time
 from pathlib import Path
 
-from tandemlift.apps.live.grading import Notebook, graded_class
+from tandemlift.apps.teaching.hand_ins import Notebook
+from tandemlift.apps.teaching.running import graded_each
 
 EXERCISES, COUNT = Path(__file__).parents[1] / "exercises", 100
 
@@ -27,9 +28,9 @@ def handed_in(folder: Path, exercise: str) -> list[Notebook]:
 for exercise in sys.argv[1:] or sorted(p.parent.name for p in EXERCISES.glob("*/checks.py")):
     with tempfile.TemporaryDirectory() as folder:
         notebooks = handed_in(Path(folder), exercise)
-        graded_class(notebooks[:1], EXERCISES)  # compiles what it flies
+        dict(graded_each(notebooks[:1], EXERCISES))  # compiles what it flies
         begin = time.perf_counter()
-        grades = graded_class(notebooks, EXERCISES)
+        grades = dict(graded_each(notebooks, EXERCISES))
         seconds = time.perf_counter() - begin
     full = sum(grade.points == 10 and not grade.failure for grade in grades.values())
     print(f"{exercise:16} {COUNT} notebooks in {seconds:5.1f} s on {os.cpu_count()} cores, {full} with all points")

@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from tandemlift.analysis.studies.tuning.tune import train, tune
     from tandemlift.apps.export.logs import read_log
     from tandemlift.apps.export.registration import register_environments
-    from tandemlift.apps.live.grading import grade
     from tandemlift.apps.live.notebook_page import page
+    from tandemlift.apps.teaching.grading import grade
     from tandemlift.codegen.mission_module import compile_mission
     from tandemlift.core.errors import FlightWarning, InputError
     from tandemlift.flight.record import Flight
@@ -60,7 +60,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "feel": "analysis.studies.feel",
     "fly": "simulation.fly",
     "fly_many": "simulation.fly",
-    "grade": "apps.live.grading",
+    "grade": "apps.teaching.grading",
     "identify": "analysis.identification.identify",
     "jax_step": "analysis.linearization.differentiable_step",
     "linearize": "analysis.linearization.linearize",

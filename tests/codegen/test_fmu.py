@@ -10,7 +10,7 @@ from fmu_importer import DISCARD, ERROR, OK, Fmu, Instance
 
 import tandemlift as tl
 from tandemlift.codegen import fmu_binaries
-from tandemlift.codegen.fmu import write_fmu
+from tandemlift.codegen.fmu import fmu_of
 from tandemlift.codegen.fmu_sources import flight_part, pilot_part
 from tandemlift.codegen.vehicle_step import is_of_vehicle
 from tandemlift.flight.data_frames import column_names
@@ -34,9 +34,11 @@ def fmu(tmp_path_factory):
     def both(name, part):
         mission = portable_mission(tl.load_mission(name))
         described = pilot_part(mission) if part == "pilot" else flight_part(mission, part)
-        first = Fmu(write_fmu(described, folder / f"{described.identifier}2.fmu", 2, ["host"]))
-        path = write_fmu(described, folder / f"{described.identifier}3.fmu", 3, [])
-        return {2: first, 3: Fmu(path, first.path)}
+        two, three = (folder / f"{described.identifier}{fmi}.fmu" for fmi in (2, 3))
+        two.write_bytes(fmu_of(described, 2, ["host"]))
+        three.write_bytes(fmu_of(described, 3, []))
+        first = Fmu(two)
+        return {2: first, 3: Fmu(three, first.path)}
 
     yield lambda name, part, fmi: both(name, part)[fmi]
     made.undo()

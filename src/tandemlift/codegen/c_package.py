@@ -16,8 +16,9 @@ from tandemlift.codegen.c_flight import FlightFile
 from tandemlift.codegen.c_pilot import PilotFile
 from tandemlift.codegen.number_facts import facts_of
 from tandemlift.codegen.prepare import PrepareFile
-from tandemlift.core.files import check_own, write_file
+from tandemlift.core.files import check_own
 from tandemlift.core.types import Array, leaves
+from tandemlift.flight.file_set import write_files
 from tandemlift.missions import Mission, tables_of
 from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.fly import fly
@@ -105,10 +106,8 @@ def code_texts(mission: Mission, single: bool = False) -> dict[str, str]:
 
 
 def written(texts: dict[str, str], folder: Path) -> list[Path]:
-    """Write texts to files of a folder."""
-    for name, text in texts.items():
-        write_file(folder / name, text)
-    return [folder / name for name in texts]
+    """Write texts to files of a folder: all of them, or none."""
+    return write_files(folder, texts)
 
 
 # ---- Programs that compare pilot and flight with stored samples of native flights

@@ -7,6 +7,7 @@ those of the compiler.
 from __future__ import annotations
 
 import hashlib
+import io
 import tempfile
 import uuid
 import zipfile
@@ -17,7 +18,7 @@ from tandemlift.codegen.fmu_binaries import HOST, chosen_platforms, libraries
 from tandemlift.codegen.fmu_description import build_description, model_description, sources
 from tandemlift.codegen.fmu_sources import FmuPart, flight_part, pilot_part
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import atomic_write
+from tandemlift.flight.file_set import write_files
 from tandemlift.missions import Mission
 from tandemlift.simulation.caller_values import portable_mission
 
@@ -50,11 +51,11 @@ def write_fmus(
         raise InputError(f"fmi = {fmi}: must be {' or '.join(map(str, VERSIONS))}")
     wanted, mission = chosen_platforms(platforms), portable_mission(mission)
     parts = [pilot_part(mission), *(flight_part(mission, part) for part in ("vehicle", "flight"))]
-    return [write_fmu(part, Path(folder) / f"{part.identifier}.fmu", fmi, wanted) for part in parts]
+    return write_files(Path(folder), {f"{part.identifier}.fmu": fmu_of(part, fmi, wanted) for part in parts})
 
 
-def write_fmu(part: FmuPart, path: Path, fmi: int, platforms: Sequence[str]) -> Path:
-    """Write an FMU of a part; return its path."""
+def fmu_of(part: FmuPart, fmi: int, platforms: Sequence[str]) -> bytes:
+    """The FMU of a part."""
     token = token_of(part)
     texts = {name: text.replace(MARK, token) for name, text in part.texts.items()}
     content = {"modelDescription.xml": model_description(part, fmi, token)}
@@ -62,15 +63,14 @@ def write_fmu(part: FmuPart, path: Path, fmi: int, platforms: Sequence[str]) -> 
     if fmi == 3:
         content["sources/buildDescription.xml"] = build_description(part)
     with tempfile.TemporaryDirectory() as work:
-        for name, text in texts.items():
-            (Path(work) / name).write_text(text, encoding="utf-8")
+        write_files(Path(work), texts)
         files = [Path(work) / name for name in sources(part)]
         for name in platforms:
             content |= libraries(files, part.identifier, name, fmi, Path(work))
-    with atomic_write(path) as partial, zipfile.ZipFile(partial, "w", zipfile.ZIP_DEFLATED) as archive:
+    with zipfile.ZipFile(packed := io.BytesIO(), "w", zipfile.ZIP_DEFLATED) as archive:
         for name, data in content.items():
             archive.writestr(zipfile.ZipInfo(name, FIRST), data, zipfile.ZIP_DEFLATED)
-    return path
+    return packed.getvalue()
 
 
 def token_of(part: FmuPart) -> str:

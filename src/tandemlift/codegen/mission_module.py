@@ -22,9 +22,10 @@ from tandemlift.compiler.machine_code.code import Written
 from tandemlift.compiler.machine_code.machine import MACHINES, Machine, machine_named, object_code
 from tandemlift.compiler.machine_code.wasm_linker import linked
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import __version__, write_file
+from tandemlift.core.files import __version__
 from tandemlift.core.types import flat, leaves
 from tandemlift.flight.channels import channel_of
+from tandemlift.flight.file_set import write_files
 from tandemlift.missions import Mission, MissionLike, mission_of, tables_of
 from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.parameter_changes import hand_place
@@ -181,9 +182,7 @@ def compile_mission(
         raise InputError(f"{description}: is not for {target}, so it stays: give another folder, or move it")
     module = module_of(mission, target)
     manifest = json.dumps(module.manifest, indent=1, ensure_ascii=False)
-    write_file(code, module.code)
-    write_file(description, manifest)
-    return [code, description]
+    return write_files(Path(folder), {code.name: module.code, description.name: manifest})
 
 
 # ---- The manifest: meanings and places of a module's numbers, for a caller without Python

@@ -7,12 +7,11 @@ from __future__ import annotations
 
 import re
 import secrets
+import shutil
 import tomllib
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import cache
-from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -23,26 +22,32 @@ DATA = Path(__file__).resolve().parents[1] / "data"  # missions, pages, template
 FLIGHT_FILE = "flight.npz"  # in the folder of a run
 
 
-@cache
-def versions(engine: str) -> Mapping[str, str]:
-    """Versions of the packages that a flight in an engine uses."""
-    packages = ("llvmlite", "numpy", *(["mujoco"] if engine == "mujoco" else []))
-    return {"tandemlift": __version__, **{name: metadata.version(name) for name in packages}}
-
-
 @contextmanager
 def atomic_write(path: Path) -> Iterator[Path]:
     """A temporary path to write to, renamed to `path` at the end; if writing fails, `path` stays as it was.
 
-    Its name has a random part, because machines that share a folder may have processes with the same number.
+    Raises:
+        OSError: writing failed; it names `path`.
     """
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_name(f".{path.name}.{secrets.token_hex(6)}.partial")
-    try:
+    with aside(path, path) as partial:
+        path.parent.mkdir(parents=True, exist_ok=True)
         yield partial
         partial.replace(path)
+
+
+@contextmanager
+def aside(path: Path, beside: Path) -> Iterator[Path]:
+    """A temporary path that stands for another one; random, because machines that share a folder share numbers."""
+    partial = beside.with_name(f".{beside.name}.{secrets.token_hex(6)}.partial")
+    try:
+        yield partial
+    except OSError as error:  # that of a full disk has no name, others have the temporary one
+        if error.errno is None:
+            raise
+        name = Path(str(error.filename or path).replace(str(partial), str(path)))
+        raise OSError(error.errno, error.strerror, str(name)) from error
     finally:
-        partial.unlink(missing_ok=True)
+        shutil.rmtree(partial) if partial.is_dir() else partial.unlink(missing_ok=True)
 
 
 def write_file(path: Path, content: str | bytes) -> None:

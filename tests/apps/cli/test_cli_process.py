@@ -39,6 +39,14 @@ def test_in_a_terminal_of_ascii_the_template_goes_to_a_file_that_flies_and_an_er
     assert b"must be a number > 0" in refused.stderr
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
+def test_a_full_standard_output_is_named(tmp_path):
+    with Path("/dev/full").open("wb") as full:
+        command = [sys.executable, "-m", "tandemlift", "explain", "admittance.mass"]
+        done = completed(command, cwd=tmp_path, stdout=full, stderr=subprocess.PIPE, check=False)
+    assert (done.returncode, done.stderr) == (2, b"error: standard output: No space left on device\n")
+
+
 def told(terminal: int, pattern: bytes) -> bytes:
     """What a process tells a terminal, until a pattern is in it."""
     text, end = b"", time.monotonic() + COMPILING

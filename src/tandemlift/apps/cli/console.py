@@ -26,12 +26,14 @@ AGAIN = 0.02  # s, until an interrupt that Python has swallowed is raised again
 
 
 def echo(*lines: str, nl: bool = True) -> None:
-    """Print lines to standard output; if it is closed (`| head`), continue without it."""
+    """Print lines to standard output; if it is closed (`| head`), continue without it; if it is full, say so."""
     try:
         for line in lines:
             click.echo(line, nl=nl)
-    except BrokenPipeError:
+    except OSError as error:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        if not isinstance(error, BrokenPipeError):
+            raise OSError(error.errno, error.strerror, "standard output") from None
 
 
 @contextmanager

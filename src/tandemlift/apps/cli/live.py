@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import sys
+from contextlib import closing
 from pathlib import Path
 
 import click
@@ -193,32 +194,48 @@ def score(folder: Path, mission: str, free: tuple[str, ...], settings: tuple[str
 @click.option(
     "--seconds", type=click.FloatRange(1.0, 3600.0), default=20.0, show_default=True, help="For each notebook."
 )
-@click.option("--out", metavar="FILE", help="Write the table as CSV.")
+@click.option("--out", metavar="FILE", help="Write the table as CSV, anew after each notebook.")
 def grade(folder: Path, exercises: Path, seconds: float, out: str | None) -> None:
     """Grade the notebooks of a class.
 
-    FOLDER holds the notebooks of exercises that participants handed in, a notebook or a folder each. Each is run in a
-    process of its own, with the checks that stand in --exercises, not with those that were handed in. A notebook that
-    raises, does not end, or opens a solution is named with its cell. Run what you do not trust in a container.
+    FOLDER holds the notebooks of exercises that participants handed in, a notebook or a folder each; a script called as
+    an exercise, such as 1-admittance.py, is graded, too. Each is run in a process of its own, with the checks that
+    stand in --exercises, not with those that were handed in. A notebook that raises, does not end, or opens a solution
+    is named with its cell; what cannot be graded, with the reason. Run what you do not trust in a container.
 
     \b
     Examples:
       tandemlift grade handed-in
       tandemlift grade handed-in --out points.csv
+      tandemlift grade exercises/solutions
 
     Exit code 3: some did not run to their end.
     """
-    from tandemlift.apps.live.class_table import csv_of, lines_of, remarks_of, table_of
-    from tandemlift.apps.live.grading import graded_class, notebooks_in
+    from tandemlift.apps.teaching.class_table import csv_of, lines_of
+    from tandemlift.apps.teaching.grading import Grade
+    from tandemlift.apps.teaching.hand_ins import Notebook, notebooks_in
+    from tandemlift.apps.teaching.running import graded_each
 
     path = file_path("--out", out, ".csv") if out else None
-    notebooks, others = notebooks_in(folder, exercises)
-    with progress_bar("Grading", "notebooks", shown=sys.stderr.isatty()) as progress:
-        grades = graded_class(notebooks, exercises, seconds, progress)
-    table = table_of(grades)
-    echo(*lines_of(table, [*remarks_of(grades), *others]))
+    notebooks, skipped = notebooks_in(folder, exercises)
+    if not notebooks:
+        raise InputError("\n".join([f"{folder}: holds no notebook that can be graded", *map(str, skipped)]))
+    grades = dict[Notebook, Grade]()
     if path:
-        write_file(path, csv_of(table))
+        write_file(path, csv_of(notebooks, grades, skipped))
+    try:
+        with (
+            progress_bar("Grading", "notebooks", shown=sys.stderr.isatty()) as progress,
+            closing(graded_each(notebooks, exercises, seconds)) as graded,
+        ):
+            for one, got in graded:
+                grades[one] = got
+                if path:
+                    write_file(path, csv_of(notebooks, grades, skipped))
+                if progress:
+                    progress(len(grades), len(notebooks))
+    finally:  # also of a class that is graded in part
+        echo(*lines_of(notebooks, grades, skipped))
     sys.exit(FAILED if any(one.failure for one in grades.values()) else 0)
 
 

@@ -15,7 +15,8 @@ from tandemlift.apps.cli.completion import CONTROLLERS, MISSIONS, names, separat
 from tandemlift.apps.cli.console import compile_notices, echo, progress_bar
 from tandemlift.apps.export.results import results_folder
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import parse_setting, write_file
+from tandemlift.core.files import parse_setting
+from tandemlift.flight.file_set import write_files
 
 if TYPE_CHECKING:
     from tandemlift.analysis.studies.comparison import MissionComparison
@@ -196,8 +197,7 @@ def benchmark(file: Path | None, quick: bool, out: str | None) -> None:
                 tables = {entry.kind: {**shipped_tables(quick=quick)[entry.kind], **own}}
         for kind, rows in tables.items():
             echo(*lines_of(kind, rows))
-        for path, text in zip(SCORES, (json_of(tables), csv_of(tables)), strict=True):
-            write_file(folder / path, text)
+        write_files(folder, dict(zip(SCORES, (json_of(tables), csv_of(tables)), strict=True)))
 
 
 STEMS = {"controllers": "compare", "engines": "engines"}  # of the files

@@ -12,6 +12,7 @@ from tandemlift.apps.live.page_modules import ENDING, FORMAT, PackedFlight
 from tandemlift.apps.live.replay import replay_element
 from tandemlift.codegen.mission_module import kept
 from tandemlift.core.files import __version__, write_file
+from tandemlift.flight.file_set import write_files
 from tandemlift.missions import load_mission
 
 FOLDER = "flights"  # beside the page's other files
@@ -65,8 +66,7 @@ def write_page(
     """
     if folder is not None:
         written = offline_files(flights, files)
-        for name, content in written.items():
-            write_file(folder / name, content)
+        write_files(folder, written)
         size = sum(map(len, written.values())) / 1e6
         yield f"{folder}: {len(written)} files, {size:.1f} MB; for a web server, such as: python -m http.server"
     if one_file is not None:

@@ -12,12 +12,12 @@ import math
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import FLIGHT_FILE
+from tandemlift.core.files import FLIGHT_FILE, write_file
 from tandemlift.core.types import Progress
+from tandemlift.flight.file_set import write_together
 from tandemlift.flight.printed_summary import notes
 from tandemlift.flight.record import Flight, counted_until
 from tandemlift.missions import built_in, format_toml, load_mission, tables_of
@@ -171,18 +171,17 @@ def write_flight_files(
 def _write_data(flight: Flight, folder: Path) -> None:
     """Write mission, flight, metrics and findings: all of them, or none."""
     try:
-        with TemporaryDirectory(prefix=".", dir=folder) as name:
-            aside = Path(name)
-            (aside / "mission.toml").write_text(format_toml(flight.mission), "utf-8")
+        with write_together(folder) as aside:
+            write_file(aside / "mission.toml", format_toml(flight.mission))
             flight.save(aside / FLIGHT_FILE)
             for file, data in (
                 ("metrics.json", flight.metrics()),
                 ("findings.json", [finding.as_table() for finding in flight.findings]),
             ):
-                (aside / file).write_text(json.dumps(data, indent=2, allow_nan=False) + "\n", "utf-8")
+                write_file(aside / file, json.dumps(data, indent=2, allow_nan=False) + "\n")
             note = f"Metrics of a flight of the mission {flight.name}"
             write_metric_tables({"value": flight.metrics()}, aside, "metrics", note)
-            for path in sorted(aside.iterdir()):
-                path.replace(folder / path.name)
     except OSError as error:
-        raise InputError(f"{folder}: the flight cannot be written: {error.strerror or error}") from error
+        raise InputError(
+            f"{error.filename or folder}: the flight cannot be written: {error.strerror or error}"
+        ) from error

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tandemlift.core.files import atomic_write
+from tandemlift.flight.file_set import write_files
 from tandemlift.flight.metric_descriptions import metric_of
 
 NOTHING = r"\multicolumn{2}{c}{--}"
@@ -159,7 +159,5 @@ def metrics_as_latex(flights: MetricsByColumn, note: str) -> str:
 
 
 def write_metric_tables(flights: MetricsByColumn, folder: Path, stem: str, note: str) -> None:
-    """Write STEM.csv and STEM.tex atomically into a folder."""
-    for kind, text in (("csv", metrics_as_csv(flights)), ("tex", metrics_as_latex(flights, note))):
-        with atomic_write(folder / f"{stem}.{kind}") as partial:
-            partial.write_text(text, "utf-8")
+    """Write STEM.csv and STEM.tex into a folder, both or none."""
+    write_files(folder, {f"{stem}.csv": metrics_as_csv(flights), f"{stem}.tex": metrics_as_latex(flights, note)})

@@ -3,12 +3,13 @@
 import shutil
 
 import pandas as pd
+import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 from study_runs import TWELVE, assert_same_rows, files_of, fly
 
 from tandemlift.analysis.studies.design.study_files import load_plan
-from tandemlift.analysis.studies.execution.checked_file import DamagedFile
+from tandemlift.analysis.studies.execution.checked_file import CheckedFile, DamagedFile, write_checked
 from tandemlift.analysis.studies.execution.store import open_folder
 from tandemlift.analysis.studies.table import load_study
 from tandemlift.core.errors import InputError
@@ -69,6 +70,42 @@ def test_no_bit_of_the_rows_can_change_and_be_read_or_taken_for_flown(twelve):
             all_columns(twelve)
     path.write_bytes(content)
     assert store.files.is_flown(name)
+
+
+def footer_of(content):
+    return range(len(content) - 8 - int.from_bytes(content[-8:-4], "little"), len(content))
+
+
+def test_each_changed_byte_of_a_footer_is_refused_or_harmless(tmp_path):
+    columns = {"row": [0, 1], "lift": [0.5, None], "outcome": ["landed", "crashed"], "flight.time": [[0.0, 0.1]] * 2}
+    write_checked(pa.table(columns), path := tmp_path / "chunk.parquet", {"study": "a", "version": "1"})
+    content, whole, refused = path.read_bytes(), CheckedFile(path).read(), 0
+    for at in footer_of(content):
+        path.write_bytes(flipped(content, 8 * at + at % 8))
+        try:
+            read = CheckedFile(path).read()
+        except DamagedFile:
+            refused += 1
+        else:
+            assert read.equals(whole), f"byte {at}"
+    assert refused > 0.95 * len(footer_of(content))
+
+
+def test_a_file_without_a_digest_of_its_footer_is_read_as_before(tmp_path):
+    columns = pa.table({"row": [0, 1]}).replace_schema_metadata({"tandemlift.chunk": "chunk"})
+    pq.write_table(columns, tmp_path / "chunk.parquet", write_page_checksum=True)
+    assert CheckedFile(tmp_path / "chunk.parquet").read().to_pydict() == {"row": [0, 1]}
+
+
+def test_a_changed_name_of_a_column_is_mended_by_flying_again(whole, twelve):
+    path, *_ = files_of(twelve).values()
+    content = path.read_bytes()
+    at = content.index(b"human_work_j", footer_of(content).start)
+    path.write_bytes(flipped(content, 8 * at))
+    with pytest.raises(DamagedFile, match="with the names of its columns"):
+        load_study(twelve).read(["row"])
+    assert fly(KEPT, twelve) == 1
+    assert_same_rows(whole, twelve)
 
 
 def test_every_damaged_file_is_flown_again_and_no_other_one(whole, twelve):

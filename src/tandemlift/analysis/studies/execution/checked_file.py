@@ -1,7 +1,12 @@
-"""The Parquet file of a chunk, with Parquet's checksums of pages: a damaged file, or one of other rows, is rejected."""
+"""The Parquet file of a chunk: a damaged file, or one of other rows, is rejected.
+
+Parquet has checksums of pages, but none of the footer, which names the columns, their types and places. Its SHA-256
+stands in front of it, where readers of Parquet do not look: they find everything by places in the footer.
+"""
 
 from __future__ import annotations
 
+import hashlib
 import os
 from collections.abc import Collection, Mapping
 from pathlib import Path
@@ -14,7 +19,8 @@ if TYPE_CHECKING:
     import pyarrow
 
 ABOUT = "tandemlift."  # prefix of a file's metadata
-CHUNK = f"{ABOUT}chunk"
+CHUNK, FOOTER = f"{ABOUT}chunk", f"{ABOUT}footer"
+DIGEST = hashlib.sha256  # of the footer; older files have none
 
 
 class DamagedFile(InputError):
@@ -39,16 +45,25 @@ def write_checked(table: pyarrow.Table, path: Path, about: Mapping[str, str]) ->
     from pyarrow import BufferOutputStream, parquet
 
     written = BufferOutputStream()
-    named = table.replace_schema_metadata({f"{ABOUT}{key}": value for key, value in about.items()} | {CHUNK: path.stem})
+    said = {f"{ABOUT}{key}": value for key, value in about.items()} | {CHUNK: path.stem, FOOTER: DIGEST().name}
+    named = table.replace_schema_metadata(said)
     parquet.write_table(named, written, compression="zstd", row_group_size=len(table), write_page_checksum=True)
+    content = memoryview(written.getvalue())
+    footer = content[-_footer_size(content[-8:]) :]
     try:
         with atomic_write(path) as partial, partial.open("wb") as file:
-            file.write(written.getvalue())
+            file.write(content[: -len(footer)])
+            file.write(DIGEST(footer).digest() + footer)
             file.flush()
             os.fsync(file.fileno())  # else a power failure may leave the file's name without all of its content
     except OSError as error:
         why = os.strerror(error.errno) if error.errno else error
         raise InputError(f"{path}: cannot be written: {why}; what is done so far stays") from None
+
+
+def _footer_size(end: bytes | memoryview) -> int:
+    """Bytes from the footer to the end of a file, by its last eight: the footer's length, and a mark."""
+    return int.from_bytes(end[:4], "little") + 8
 
 
 class CheckedFile:
@@ -77,11 +92,20 @@ class CheckedFile:
                 self._file, read_dictionary=list(coded), page_checksum_verification=True
             )
             schema = self._parquet.schema_arrow
-        except (ArrowException, OSError) as error:
+            self.names, self.rows, self.about = schema.names, self._parquet.metadata.num_rows, schema.metadata or {}
+        except (ArrowException, OSError, ValueError) as error:  # also a column's name that is no text
             raise DamagedFile(path, error) from None
-        self.names, self.rows, self.about = schema.names, self._parquet.metadata.num_rows, schema.metadata or {}
         if self.about.get(CHUNK.encode()) != path.stem.encode():
             raise DamagedFile(path, "it is not as it was written, or holds other rows")
+        if FOOTER.encode() in self.about and not self._footer_is_whole():
+            raise DamagedFile(path, "its footer, with the names of its columns, is not as it was written")
+
+    def _footer_is_whole(self) -> bool:
+        size, width = self._file.size(), DIGEST().digest_size
+        self._file.seek(size - 8)
+        footer = _footer_size(self._file.read())
+        self._file.seek(size - footer - width)
+        return bool(self._file.read(width) == DIGEST(self._file.read()).digest())
 
     def read(self, names: Collection[str] | None = None) -> pyarrow.Table:
         """The existing ones of these columns, by default all, as a PyArrow table.

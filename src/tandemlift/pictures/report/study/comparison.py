@@ -6,14 +6,15 @@ import json
 from pathlib import Path
 
 from tandemlift.analysis.studies.comparison import MissionComparison
-from tandemlift.core.files import atomic_write
+from tandemlift.core.files import write_file
+from tandemlift.flight.file_set import write_together
 from tandemlift.pictures.report.metric_tables import write_metric_tables
 
 
 def write_comparison(found: MissionComparison, folder: Path, stem: str) -> None:
-    """Write the numbers of a comparison as STEM.json, and all metrics as STEM.csv and STEM.tex, atomically."""
-    with atomic_write(folder / f"{stem}.json") as partial:
-        partial.write_text(json.dumps(found.as_json(), indent=2, allow_nan=False) + "\n", "utf-8")
+    """Write the numbers of a comparison as STEM.json, all metrics as STEM.csv and STEM.tex: all three, or none."""
     how = "with several controllers" if found.of == "controllers" else "in several engines"
     flown = {name: flight.metrics() for name, flight in found.flights.items()}
-    write_metric_tables(flown, folder, stem, f"Metrics of the mission {found.name} {how}")
+    with write_together(folder) as aside:
+        write_file(aside / f"{stem}.json", json.dumps(found.as_json(), indent=2, allow_nan=False) + "\n")
+        write_metric_tables(flown, aside, stem, f"Metrics of the mission {found.name} {how}")

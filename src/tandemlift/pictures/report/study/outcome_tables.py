@@ -14,8 +14,8 @@ from tandemlift.analysis.studies.design.settings import REFUSED
 from tandemlift.analysis.studies.design.statistics import Share, finite, share
 from tandemlift.analysis.studies.study_rows import WHO, RowGroup, StudyRows
 from tandemlift.analysis.studies.worst import WorstRow, reasons, worst_rows
-from tandemlift.core.files import atomic_write
 from tandemlift.core.phases import OUTCOMES
+from tandemlift.flight.file_set import write_files
 from tandemlift.pictures.report.metric_tables import NUMBER, latex_number, latex_table, latex_text
 from tandemlift.pictures.report.page import Cell, number, strong, with_keys
 from tandemlift.pictures.report.study.words import row_command, shown_column, shown_quantity
@@ -68,10 +68,8 @@ def _over_two(head: str) -> str:
 
 
 def write_outcomes(rows: StudyRows, folder: Path) -> None:
-    """Write outcomes.csv and outcomes.tex atomically into a folder."""
-    for kind, text in (("csv", outcomes_as_csv(rows)), ("tex", outcomes_as_latex(rows))):
-        with atomic_write(folder / f"outcomes.{kind}") as partial:
-            partial.write_text(text, "utf-8")
+    """Write outcomes.csv and outcomes.tex into a folder, both or none."""
+    write_files(folder, {"outcomes.csv": outcomes_as_csv(rows), "outcomes.tex": outcomes_as_latex(rows)})
 
 
 MOST_VALUES = 6  # of the varied keys

@@ -4,21 +4,16 @@ import csv
 import json
 import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from classroom import EXERCISES, graded, handed_in, source
 
-from tandemlift.apps.live.grading import Notebook, checks_of, grade, notebooks_in
+from tandemlift.apps.teaching.grading import checks_of, grade
+from tandemlift.apps.teaching.hand_ins import notebooks_in
 from tandemlift.core.errors import InputError
 
-EXERCISES = Path(__file__).parents[3] / "exercises"
 NAMES = sorted(p.parent.name for p in EXERCISES.glob("*/checks.py"))
-
-
-def source(name: str) -> str:
-    return (EXERCISES / "solutions" / f"{name}.py").read_text("utf-8")
 
 
 def answers(text: str) -> dict:
@@ -152,23 +147,6 @@ def test_notebooks_ask_for_what_their_checks_need(name):
     assert all(c["outputs"] == [] and c["execution_count"] is None for c in code)
 
 
-def handed_in(folder: Path, name: str, exercise: str, *codes: str, tags: tuple[str, ...] = ()) -> Notebook:
-    cells = [{"cell_type": "code", "metadata": {"tags": list(tags)}, "source": code, "outputs": []} for code in codes]
-    notebook = {"cells": cells, "metadata": {"tandemlift": {"exercise": exercise}}, "nbformat": 4, "nbformat_minor": 5}
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / f"{name}.ipynb").write_text(json.dumps(notebook), "utf-8")
-    return Notebook(name, exercise, folder / f"{name}.ipynb")
-
-
-def graded(folder: Path, *more: str, **environment: str) -> tuple[int, str]:
-    """The exit code and the output of the command, in a process of its own: others here may have threads."""
-    command = [sys.executable, "-m", "tandemlift", "grade", folder, "--exercises", EXERCISES, *more]
-    env = os.environ | environment
-    done = subprocess.run(list(map(str, command)), env=env, capture_output=True, text=True, check=False)
-    assert done.returncode in (0, 3), done.stderr
-    return done.returncode, done.stdout
-
-
 def test_a_class_is_graded_and_what_misbehaves_is_named(tmp_path):
     first = "1-admittance"
     solution = EXERCISES / "solutions" / f"{first}.py"
@@ -205,8 +183,8 @@ def test_a_class_is_graded_and_what_misbehaves_is_named(tmp_path):
         "ida, 1-admittance: cell 1, SystemExit",
         "`design`, line 2: SystemExit",
         "kim.ipynb: is a notebook of no exercise, and was skipped",
-        "leo/leo.ipynb: is a notebook of exercise '../",
-        f"mia.ipynb: is a notebook of exercise '9-unknown', which is not in {EXERCISES}, and was skipped",
+        "leo/leo.ipynb: is of exercise '../",
+        f"mia.ipynb: is of exercise '9-unknown', which is not in {EXERCISES}, and was skipped",
     ):
         assert line in said, said
 
@@ -217,9 +195,9 @@ def test_a_class_is_graded_and_what_misbehaves_is_named(tmp_path):
 def test_a_damaged_notebook_is_no_readable_json(tmp_path, content):
     (tmp_path / "kim.ipynb").write_bytes(content)
     found, others = notebooks_in(tmp_path, EXERCISES)
-    assert (found, others) == (
+    assert (found, list(map(str, others))) == (
         [],
-        ["kim.ipynb: is no readable JSON, as of a notebook that is damaged or not whole, and was skipped"],
+        ["kim.ipynb: is no readable JSON, as of a file that is damaged or not whole, and was skipped"],
     )
 
 
@@ -249,8 +227,8 @@ def test_the_command_prints_and_writes_a_table(tmp_path):
     handed_in(tmp_path / "in" / "ben", "6-passivity", "6-passivity", source("6-passivity"))
     out = tmp_path / "points.csv"
     assert graded(tmp_path / "in", "--out", str(out))[0] == 0
-    head = ["name", "1-admittance", "6-passivity", "points"]
-    rows = [head, ["anna", "10", "–", "10"], ["ben", "10", "10", "20"]]
+    head = ["name", "1-admittance", "6-passivity", "points", "remarks"]
+    rows = [head, ["anna", "10", "–", "10", ""], ["ben", "10", "10", "20", ""]]
     assert list(csv.reader(out.read_text("utf-8").splitlines())) == rows
 
 
