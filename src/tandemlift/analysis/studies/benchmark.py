@@ -102,6 +102,12 @@ def corridor(flight: Flight) -> Row:
     return {"score_s": score.total, "touches": score.touches}
 
 
+def pushed(flight: Flight) -> Row:
+    """The root mean square of the push over the steps in which the pilot uses its estimate [N]; none without such."""
+    force = flight["push_force"][flight["push_usable"] > 0.0]
+    return {"push_force_rms_n": [math.sqrt(math.fsum(axis**2) / len(axis)) for axis in force.T] if len(force) else None}
+
+
 def of_function(observer: Callable[..., Any], flight: Flight) -> Row:
     """The metrics of an observer that is a function of a table, on a flight that another observer flew.
 
@@ -123,7 +129,8 @@ def of_function(observer: Callable[..., Any], flight: Flight) -> Row:
     change = np.diff(flight["push_force"], axis=0, prepend=0.0)[used]
     along, square = math.fsum((error[:, :3] * change).ravel()), math.fsum((change**2).ravel())
     delay = -along / square * float(flight.time[1] - flight.time[0]) if square else None
-    return {"push_force_rmse_n": rmse[:3], "push_moment_rmse_n_m": rmse[3:] or None, "push_delay_s": delay}
+    errors = {"push_force_rmse_n": rmse[:3], "push_moment_rmse_n_m": rmse[3:] or None, "push_delay_s": delay}
+    return {**errors, **pushed(flight)}
 
 
 def _called(observer: Callable[..., Any], table: Any) -> Array:
@@ -137,7 +144,7 @@ def _called(observer: Callable[..., Any], table: Any) -> Array:
     return found
 
 
-OF_CHANNELS: dict[str, Callable[[Flight], Row]] = {"corridor": corridor, "steps": smallest_push}
+OF_CHANNELS: dict[str, Callable[[Flight], Row]] = {"corridor": corridor, "steps": smallest_push, "pushes": pushed}
 
 
 def fly_task(entry: BenchmarkEntry, task: str, *, quick: bool, progress: Progress | None = None) -> list[Row]:

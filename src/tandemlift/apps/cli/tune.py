@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from tandemlift.analysis.studies.tuning.result import Tuning
     from tandemlift.analysis.studies.tuning.tune import TuneProgress
 
-NOT_BETTER, INTERRUPTED = 1, 130
+NOT_BETTER = 1
 FILES = ("tuned.toml", "evidence.json", "tune.html")
 
 
@@ -146,7 +146,7 @@ def _search(
     echo(*tuning_lines(found), f"  mission: {folder / 'tuned.toml'}", f"  page: {folder / 'tune.html'}")
     if not found.is_finished:
         click.echo("stopped; the best so far is written, and was not flown on holdout draws", err=True)
-        sys.exit(INTERRUPTED)
+        sys.exit(flying.INTERRUPTED)
     if not found.is_better:
         sys.exit(NOT_BETTER)
 

@@ -77,6 +77,17 @@ def false_hands(case: str) -> Column:
 
 
 TRACKED, NOMINAL = "position_rmse_after_10s_m", "nominal"
+MISSED = 0.5  # of the push: an estimate that misses more has no delay; by least squares, none at all would have 0 ms
+
+
+def delay(row: Row) -> float | None:
+    """The delay of an estimate [ms] in the nominal flight."""
+    late = metric("push_delay_s", None, 1e3, NOMINAL)(row)
+    if late is None or math.hypot(*row["push_force_rmse_n"]) > MISSED * math.hypot(*row["push_force_rms_n"]):
+        return None
+    return late
+
+
 TABLES: dict[Kind, tuple[Column, ...]] = {
     "controllers": (
         *_axes("RMSE {} (mm)", "x y z", "tracking", TRACKED, 1e3),
@@ -91,7 +102,7 @@ TABLES: dict[Kind, tuple[Column, ...]] = {
         Column("lost (%)", "pushes", lambda row: 100.0 * has_failed(row)),
         *_axes("F {} (N)", "x y z", "pushes", "push_force_rmse_n", 1.0),
         *_axes("M {} (N m)", "roll pitch yaw", "pushes", "push_moment_rmse_n_m", 1.0),
-        Column("delay (ms)", "pushes", metric("push_delay_s", None, 1e3, NOMINAL)),
+        Column("delay (ms)", "pushes", delay),
         Column("smallest push (N)", "steps", metric("smallest_push_n"), max),
         *map(false_hands, (NOMINAL, "mass +20 %", "wind of 1 m/s", "wind of 2 m/s")),
     ),
@@ -106,11 +117,39 @@ TABLES: dict[Kind, tuple[Column, ...]] = {
 """The columns, in the order of the tables."""
 
 
-def lines_of(kind: Kind, rows: Mapping[str, Scores]) -> list[str]:
-    """A table as Markdown."""
+WIDE, LONGEST = 80, 24  # of a terminal and of a name, in characters
+
+
+def text_of(number: float | None) -> str:
+    """A number with three digits, or a dash without one."""
+    if number is None:
+        return "–"
+    return f"{number:,.0f}" if abs(number) >= 100.0 else f"{number:.3g}"
+
+
+def lines_of(kind: Kind, rows: Mapping[str, Scores], own: str = "") -> list[str]:
+    """Tables as Markdown, as narrow as a terminal: a column for each row of the scores; `own` is in every table."""
+
+    def texts(name: str) -> list[str]:
+        head = name if len(name) <= LONGEST else f"{name[: LONGEST - 1]}…"
+        return [head, *(text_of(rows[name].get(title)) for title in titles)]
+
     titles = [column.title for column in TABLES[kind]]
-    cells = [[name, *("" if row.get(t) is None else f"{row[t]:.4g}" for t in titles)] for name, row in rows.items()]
-    columns = list(zip([kind, *titles], *cells, strict=True))
+    same = [[kind, *titles], *([texts(own)] if own else [])]
+    tables = [same]
+    for column in (texts(name) for name in rows if name != own):
+        if _width(wider := [*tables[-1], column]) > WIDE:
+            tables.append([*same, column])
+        else:
+            tables[-1] = wider
+    return [line for table in tables for line in (*_markdown(table), "")][:-1]
+
+
+def _width(columns: list[list[str]]) -> int:
+    return sum(max(map(len, column)) + 3 for column in columns) + 1
+
+
+def _markdown(columns: list[list[str]]) -> list[str]:
     sizes = [max(map(len, column)) for column in columns]
     body = [
         " | ".join([row[0].ljust(sizes[0]), *map(str.rjust, row[1:], sizes[1:])]) for row in zip(*columns, strict=True)

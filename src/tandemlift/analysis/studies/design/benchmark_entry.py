@@ -9,9 +9,12 @@ from pathlib import Path
 from typing import Any, Literal, NamedTuple, get_args
 
 from tandemlift.core.errors import InputError
+from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.missions import Mission
 from tandemlift.parts.controllers import CONTROLLERS
 from tandemlift.parts.controllers.user_controller import file_text, run_file
+from tandemlift.parts.estimation.wrench.observation import ExternalWrench, NominalBody, Observation, observe
+from tandemlift.parts.estimation.wrench.start_observer import OwnObserver
 
 Kind = Literal["controllers", "observers", "policies"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
@@ -25,6 +28,20 @@ WHAT = (
 )
 
 
+class Silent(NamedTuple):
+    """An observer that says nothing: the vehicle."""
+
+    body: NominalBody
+
+
+@observe.register(Silent)
+def _nothing(k: Silent, m: Vec3, x: Observation) -> tuple[ExternalWrench, Vec3]:
+    return ExternalWrench(ZERO, ZERO), m
+
+
+SILENT = OwnObserver(lambda body, noise, interval: (Silent(body), ZERO))
+
+
 class BenchmarkEntry(NamedTuple):
     """An entry of the benchmark.
 
@@ -33,7 +50,7 @@ class BenchmarkEntry(NamedTuple):
         name: of the row.
         changes: of every mission that it flies.
         controller: its name, or its file; "" for the mission's.
-        law: an observer of one's own, an `OwnObserver`; None for others.
+        law: an observer of one's own, or the one that says nothing, an `OwnObserver`; None for others.
         function: an observer that is a function of a table (see `benchmark.of_function`); None for others.
         file: of the entry; None for a baseline.
     """
@@ -53,7 +70,8 @@ def baselines(kind: Kind) -> list[BenchmarkEntry]:
         own = [name for name, c in sorted(CONTROLLERS.items()) if c.start.__module__.startswith("tandemlift.")]
         return [BenchmarkEntry(kind, name, {}, name) for name in own]
     if kind == "observers":
-        return [BenchmarkEntry(kind, name, {WRENCH: name}) for name in get_args(_annotation("estimator", "wrench"))]
+        found = [BenchmarkEntry(kind, name, {WRENCH: name}) for name in get_args(_annotation("estimator", "wrench"))]
+        return [*found, BenchmarkEntry(kind, "zero", {WRENCH: STOOD_IN}, law=SILENT)]
     return [
         BenchmarkEntry(kind, "damping of 1.6 N s/m", {f"{POLICY}.model": "none"}),
         BenchmarkEntry(kind, "damping of 1.0 N s/m", {f"{POLICY}.model": "none", "admittance.damping": 1.0}),

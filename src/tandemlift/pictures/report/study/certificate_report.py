@@ -5,14 +5,16 @@ from __future__ import annotations
 import json
 import math
 import tempfile
+import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from tandemlift.analysis.certification.certificate import Certificate
+from tandemlift.analysis.certification.certificate import TIERS, Certificate
 from tandemlift.analysis.certification.flown import with_limits
 from tandemlift.analysis.certification.linear import linear_tier
 from tandemlift.analysis.certification.person import ArmBox, person_tier
@@ -20,13 +22,14 @@ from tandemlift.analysis.certification.statistics import FLIGHTS, statistics_tie
 from tandemlift.analysis.linearization.claims import Claim, Tier
 from tandemlift.analysis.robustness.nonlinear import nonlinear_tier
 from tandemlift.analysis.robustness.structured import DEFAULT_BOX, structured_tier
+from tandemlift.analysis.studies.estimate import duration
 from tandemlift.core.errors import InputError, extra, unknown
 from tandemlift.core.files import DATA, __version__, atomic_write
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Progress
 from tandemlift.missions import MissionLike, format_toml, mission_of, tables_of
 from tandemlift.pictures.drawing.style import save
-from tandemlift.pictures.report.page import shown_figures, write_page
+from tandemlift.pictures.report.page import Verdict, shown_figures, write_page
 from tandemlift.pictures.report.paper_report import check_typesetting, typeset
 from tandemlift.pictures.report.study.certificate_figures import certificate_captions, certificate_figures
 from tandemlift.pictures.report.study.words import command
@@ -34,7 +37,13 @@ from tandemlift.pictures.report.study.words import command
 PAGE, JSON, PDF, SOURCE = "certificate.html", "certificate.json", "certificate.pdf", "report.typ"
 MISSION = "mission.toml"
 NONE, MINUS = "none", "−"
-TIERS = ("linear", "structured", "person", "nonlinear", "statistics")
+SECONDS = {  # of a tier of `iris` on two cores, without flights for its limits and with them
+    "linear": (10.0, 60.0),
+    "structured": (20.0, 20.0),
+    "person": (10.0, 60.0),
+    "nonlinear": (40.0, 60.0),
+    "statistics": (60.0, 60.0),
+}
 PACKAGES = ("numpy", "scipy", "slycot", "cvxpy")
 
 
@@ -48,6 +57,7 @@ def certify(
     flights: int = FLIGHTS,
     folder: str | Path | None = None,
     progress: Progress | None = None,
+    tell: Callable[[str], object] | None = None,
 ) -> Certificate:
     """How far a mission is from instability, with which parameters and person, and how often it fails.
 
@@ -60,9 +70,11 @@ def certify(
         flights: number of random flights of the tier of statistics.
         folder: of that tier's study, which goes on where it stopped; by default a temporary one.
         progress: called with (tiers done, tiers in all).
+        tell: called with a line as a tier begins, and with each tenth of the flights: its name, and the time left.
 
     Returns:
-        The certificate; a tier that cannot be formed for this mission has the reason.
+        The certificate; a tier that cannot be formed for this mission has the reason. Ctrl-C after a tier ends it with
+        the tiers so far, `stopped`.
 
     Raises:
         InputError: the mission cannot be loaded, a tier is unknown, a box is empty or too large, or an optional package
@@ -88,15 +100,47 @@ def certify(
             "structured": lambda: structured_tier(mission, box or DEFAULT_BOX),
             "person": lambda: person_tier(mission, arms, fly=fly),
             "nonlinear": lambda: nonlinear_tier(mission, fly=fly),
-            "statistics": lambda: statistics_tier(mission, study, flights),
+            "statistics": lambda: statistics_tier(mission, study, flights, left.flown),
         }
-        for done, name in enumerate(chosen):
+        left = _TimeLeft(chosen, flights, fly, tell)
+        try:
+            for done, name in enumerate(chosen):
+                if shown:
+                    shown(done, len(chosen))
+                left.begin(done)
+                found.append(with_limits(forms[name](), mission, fly))
             if shown:
-                shown(done, len(chosen))
-            found.append(with_limits(forms[name](), mission, fly))
-        if shown:
-            shown(len(chosen), len(chosen))
-    return Certificate(mission.mission.name, tuple(found), _versions(), tables_of(mission))
+                shown(len(chosen), len(chosen))
+        except KeyboardInterrupt:
+            if not found:
+                raise
+    day, stopped = f"{datetime.now(UTC):%Y-%m-%d}", len(found) < len(chosen)
+    return Certificate(mission.mission.name, tuple(found), _versions(), tables_of(mission), fly, day, stopped)
+
+
+class _TimeLeft:
+    """Tells the tier and the time that is left: by `SECONDS` at first, then by the pace of the work that is done."""
+
+    def __init__(self, tiers: Sequence[str], flights: int, fly: bool, tell: Callable[[str], object] | None) -> None:
+        self._tiers, self._tell, self._began = tiers, tell, time.monotonic()
+        sizes = {name: seconds[fly] for name, seconds in SECONDS.items()}
+        sizes["statistics"] *= flights / FLIGHTS
+        self._work = [sizes[name] for name in tiers]
+        self._at = self._tenth = 0
+
+    def begin(self, tier: int, share: float = 0.0) -> None:
+        """Tell of a tier, by its number, of which a share is done."""
+        self._at, done = tier, sum(self._work[:tier]) + share * self._work[tier]
+        pace = (time.monotonic() - self._began) / done if done else 1.0
+        if self._tell:
+            left = duration((sum(self._work) - done) * pace)
+            self._tell(f"tier {tier + 1} of {len(self._tiers)}, {self._tiers[tier]}: about {left} left")
+
+    def flown(self, flights: int, of: int) -> None:
+        """Tell of each tenth of the random flights."""
+        if (tenth := 10 * flights // max(of, 1)) > self._tenth and flights < of:
+            self._tenth = tenth
+            self.begin(self._at, flights / of)
 
 
 def _versions() -> dict[str, str]:
@@ -123,20 +167,19 @@ def write_certificate(certificate: Certificate, folder: Path) -> list[Path]:
     certificate = _placed(certificate, {f"tandemlift run {name}": command("run", folder / name) for name in files})
     certificate.save(folder / JSON)
     figures, captions = certificate_figures(certificate), certificate_captions(certificate)
-    tiers = [
-        {"title": t.title, "assumptions": t.assumptions, "reason": t.reason, "rows": [_row(c) for c in t.claims]}
-        for t in certificate.tiers
-    ]
-    verdict, versions = _verdict(certificate), ", ".join(f"{n} {v}" for n, v in certificate.versions.items())
+    tiers = [_shown_tier(tier) for tier in certificate.tiers]
+    versions = ", ".join(f"{n} {v}" for n, v in certificate.versions.items())
+    about, flown = [certificate.scope, _identity(certificate)], ["--fly"] * certificate.flown
+    names, (head, colon, rest) = ",".join(t.name for t in certificate.tiers), certificate.verdict.partition(":")
     page = write_page(
         folder / PAGE,
         "certificate",
         name=certificate.mission,
-        missed=[_name(claim) for claim in certificate.missed],
-        verdict=None,
+        about=" ".join(about),
+        verdict=Verdict(head, colon + rest, "missed" if certificate.missed or certificate.not_formed else ""),
         tiers=tiers,
         mission=mission,
-        repeat=command("certify", folder / MISSION, "--tiers", ",".join(t.name for t in certificate.tiers)),
+        repeat=command("certify", folder / MISSION, "--tiers", names, *flown),
         figures=shown_figures(figures, captions),
         versions=f"Computed with {versions}.",
     )
@@ -146,7 +189,8 @@ def write_certificate(certificate: Certificate, folder: Path) -> list[Path]:
     except InputError:
         return written
     shown = [{"file": f"{n}.pdf", "title": captions[n].title, "text": captions[n].text} for n in figures]
-    data = {"mission": certificate.mission, "verdict": verdict, "tiers": tiers, "figures": shown, "versions": versions}
+    data = {"mission": certificate.mission, "about": about, "verdict": certificate.verdict, "tiers": tiers}
+    data |= {"figures": shown, "versions": versions}
     with TemporaryDirectory() as aside:
         parts = Path(aside)
         for name, figure in figures.items():
@@ -171,13 +215,17 @@ def _write(path: Path, text: str) -> None:
         partial.write_text(text, "utf-8")
 
 
-def _verdict(certificate: Certificate) -> str:
-    missed = [_name(claim) for claim in certificate.missed]
-    return f"Below the bar: {'; '.join(missed)}." if missed else "No number is below its bar."
+def _identity(certificate: Certificate) -> str:
+    by = f"tandemlift {certificate.versions.get('tandemlift', '')}"
+    return f"Mission {certificate.mission}, SHA-256 {certificate.mission_sha256[:16]}…; {by}; {certificate.made}."
 
 
-def _name(claim: Claim) -> str:
-    return f"{claim.quantity}, {claim.subject}" if claim.subject else claim.quantity
+def _shown_tier(tier: Tier) -> dict[str, Any]:
+    """A tier as texts; columns without a text are left out."""
+    rows = [_row(claim) for claim in tier.claims]
+    columns = [name for name in ("bar", "flown") if any(row[name] for row in rows)]
+    about = {"title": tier.title, "assumptions": tier.assumptions, "reason": tier.reason}
+    return {**about, "rows": rows, "columns": columns}
 
 
 def _row(claim: Claim) -> dict[str, Any]:
@@ -188,8 +236,8 @@ def _row(claim: Claim) -> dict[str, Any]:
         flown = f"{shown(scale * claim.flown.above)} ({claim.flown.ended})" if claim.flown.ended else "not reached"
     bar = "" if claim.bar is None else shown(claim.bar)
     return {
-        "name": _name(claim),
-        "value": shown(claim.value),
+        "name": claim.name,
+        "value": f"≥ {shown(claim.tried)}" if claim.is_least else shown(claim.value),
         "unit": "" if claim.unit == "1" else claim.unit,
         "bar": bar,
         "verdict": claim.verdict,
@@ -207,23 +255,18 @@ def shown(value: float | None) -> str:
 
 
 def certificate_lines(certificate: Certificate) -> Iterator[str]:
-    """A certificate in words: its tiers, their assumptions and their numbers."""
+    """A certificate in words: what it covers and its verdict, then its tiers, their assumptions and their numbers."""
+    yield from (certificate.scope, certificate.verdict, _identity(certificate))
     for tier in certificate.tiers:
         yield tier.title
         yield from (f"  assumed: {text}" for text in tier.assumptions)
         if tier.reason:
             yield f"  not formed: {tier.reason}"
-        rows = [_row(claim) for claim in tier.claims]
-        wide = max((len(row["name"]) for row in rows), default=0)
-        for row in rows:
-            beside = " ".join(
-                text
-                for text in (
-                    f"bar {row['bar']}" if row["bar"] else "",
-                    row["verdict"],
-                    row["flown"] and f"flown {row['flown']}",
-                )
-                if text
-            )
-            yield f"  {row['name']:{wide}}  {row['value']:>8} {row['unit']:4} {beside:24} {row['text']}".rstrip()
-    yield _verdict(certificate)
+        rows = []
+        for row in map(_row, tier.claims):
+            words = (row["bar"] and f"bar {row['bar']}", row["verdict"], row["flown"] and f"flown {row['flown']}")
+            rows.append((row["name"], f"{row['value']:>8} {row['unit']:4}", " ".join(filter(None, words)), row["text"]))
+        wide, _, beside, _ = [max(map(len, column)) for column in zip(*rows, strict=True)] if rows else (0, 0, 0, 0)
+        for name, value, words, text in rows:
+            yield f"  {name:{wide}}  {value} {words:{beside}}{' ' * bool(beside)}{text}".rstrip()
+    yield f"{certificate.scope} {certificate.verdict}"
