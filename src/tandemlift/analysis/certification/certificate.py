@@ -59,6 +59,11 @@ class Certificate:
         return tuple(claim for tier in self.tiers for claim in tier.claims if claim.verdict == MISSED)
 
     @property
+    def left_out(self) -> tuple[str, ...]:
+        """The tiers, by name, that are not in it."""
+        return tuple(name for name in TIERS if name not in [tier.name for tier in self.tiers])
+
+    @property
     def not_formed(self) -> tuple[str, ...]:
         """The tiers, by name, that were asked for and have no numbers."""
         return tuple(tier.name for tier in self.tiers if not tier.claims)
@@ -66,13 +71,14 @@ class Certificate:
     @property
     def scope(self) -> str:
         """What the certificate covers, in a sentence: its tiers, those that were left out, and whether limits flew."""
-        names, out = [tier.name for tier in self.tiers], [n for n in TIERS if n not in (t.name for t in self.tiers)]
-        parts = ["stopped before its end"] * self.stopped
+        names = [tier.name for tier in self.tiers]
+        parts = ["Stopped before its end"] * self.stopped
         parts += [f"{len(names)} of {len(TIERS)} tiers: {', '.join(names) or 'none'}"]
-        parts += [f"left out: {', '.join(out)}"] * bool(out)
+        parts += [f"left out: {', '.join(self.left_out)}"] * bool(self.left_out)
         parts += [f"not formed: {', '.join(self.not_formed)}"] * bool(self.not_formed)
-        said = "; ".join([*parts, f"limits {'flown' if self.flown else 'predicted, not flown'}"])
-        return f"{said[0].upper()}{said[1:]}."
+        limits = any(claim.limit is not None for tier in self.tiers for claim in tier.claims)
+        parts += ["no limits" if not limits else "limits flown" if self.flown else "limits predicted, not flown"]
+        return f"{'; '.join(parts)}."
 
     @property
     def mission_sha256(self) -> str:
@@ -97,7 +103,7 @@ class Certificate:
             "made": self.made,
             "flown": self.flown,
             "stopped": self.stopped,
-            "left_out": [name for name in TIERS if name not in [tier.name for tier in self.tiers]],
+            "left_out": list(self.left_out),
             "tables": _finite(self.tables),
             "versions": dict(self.versions),
             "tiers": [

@@ -107,7 +107,7 @@ def _margins(loop: LoopAsFlown) -> Iterator[Claim]:
     w, L = loop.open.w, loop.L
     for i, m in enumerate(axis_margins(w, L)):
         gain = min(abs(20.0 * math.log10(x)) if 0.0 < x < math.inf else NO_LIMIT for x in (m.gain, m.least_gain))
-        text = f"the gain may grow {_grown(m.gain)} and fall to {m.least_gain:.3g} times"
+        text = f"the gain may grow {_times(m.gain)} and fall {_times(m.least_gain)}"
         yield Claim("gain margin", m.axis, gain, "dB", GAIN_BAR, text, tried=NO_LIMIT)
         phase, text = abs(m.phase), f"at {m.crossover:.3g} rad/s, where the gain is 1"
         if math.isnan(phase):
@@ -118,8 +118,8 @@ def _margins(loop: LoopAsFlown) -> Iterator[Claim]:
     yield from _disk(w, loop.at_rotors, "all rotors")
 
 
-def _grown(factor: float) -> str:
-    return "without limit" if factor == math.inf else f"to {factor:.3g} times"
+def _times(factor: float) -> str:
+    return f"to {factor:.3g} times" if 0.0 < factor < math.inf else "without limit"
 
 
 def _disk(
@@ -163,7 +163,7 @@ def changed_limits(mission: Mission) -> Iterator[Claim]:
         if name == "mass" and at > lifted:
             at, frequency, text = lifted, math.nan, "times the pilot's value: the most that the rotors lift"
         if not 0.0 < at < math.inf:
-            yield Claim(quantity, axis, at, "1", text="no limit within a factor of 50")
+            yield Claim(quantity, axis, math.inf, "1", text="no limit within a factor of 50")
             continue
         if name == "mass" and at < 1.0 and mission.pilot.guidance == "interactive":
             push = f"a push of more than {min(mission.admittance.threshold):g} N, the threshold"

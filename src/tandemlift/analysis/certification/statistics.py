@@ -21,27 +21,25 @@ from tandemlift.analysis.studies.execution.random_flights import (
     random_plan,
     what_is_drawn,
 )
-from tandemlift.core.types import Progress
 from tandemlift.missions import Mission
 
 TITLE = "Statistics: failures among random flights"
 FLIGHTS, SHOWN = 300, 20  # flights; rows of failures that a sentence names
 
 
-def statistics_tier(mission: Mission, folder: Path, flights: int = FLIGHTS, progress: Progress | None = None) -> Tier:
+def statistics_tier(mission: Mission, folder: Path, flights: int = FLIGHTS) -> Tier:
     """The tier of statistics; flights that the folder already holds are not flown again.
 
     Args:
         mission: to be flown.
         folder: of the study; the mission is written beside it.
         flights: number of flights.
-        progress: called with (flights flown, flights in all).
 
     Raises:
         InputError: the folder holds another study, or an optional package is missing (extras: certify, study).
     """
     plan = random_plan(mission, folder, flights)
-    rows = random_flights(plan, folder, progress)
+    rows = random_flights(plan, folder)
     assumptions = (
         *what_is_drawn(plan),
         "Uniform and independent: the bound is one on this distribution, not on a vehicle outside of it.",

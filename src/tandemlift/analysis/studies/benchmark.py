@@ -25,9 +25,11 @@ from tandemlift.analysis.studies.execution.flying import fly_each
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.files import DATA
 from tandemlift.core.types import Array, Progress
+from tandemlift.core.vector import Quat, Vec3, apply_transposed
 from tandemlift.flight.corridor_score import score_of
 from tandemlift.flight.record import Flight
 from tandemlift.parts.controllers.registry import error_text
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
 AT_ONCE = 4  # flights in memory
 FORCES = [round(3.0 / 1.2**i, 3) for i in range(16)]  # N: steps of a push, from 3 to 0.2 N
@@ -112,8 +114,8 @@ def of_function(observer: Callable[..., Any], flight: Flight) -> Row:
     """The metrics of an observer that is a function of a table, on a flight that another observer flew.
 
     `observer(table)` has a row for each logged sample, of the columns `COLUMNS`, and returns the force (n, 3) [N, world
-    axes] and, if it estimates it, the moment behind it (n, 6) [N·m, body axes, about the centre of mass]. The delay is
-    that of `parts.guidance.estimate_errors`, over the steps in which the pilot uses its own estimate.
+    axes] and, if it estimates it, the moment behind it (n, 6) [N·m, body axes, about the centre of mass]. Errors are
+    those of `simulation.loop.running_metrics`, over the steps in which the pilot uses its own estimate.
 
     Raises:
         InputError: it fails, returns something else, or uses later rows.
@@ -124,7 +126,11 @@ def of_function(observer: Callable[..., Any], flight: Flight) -> Row:
     found, early = _called(observer, table), _called(observer, table.iloc[:half].copy())
     if not np.allclose(found[:half][used[:half]], early[used[:half]], rtol=0.0, atol=1e-6):
         raise InputError("observer() is not causal: its estimates change when the rows after them are left out")
-    error = (found - np.hstack([flight["push_force"], flight["push_moment"]])[:, : found.shape[1]])[used]
+    error = found - np.hstack([flight["push_force"], flight["push_moment"]])[:, : found.shape[1]]
+    if error.shape[1] == 6:  # about the payload's centre of mass, as of a law
+        force = apply_transposed(rotation_from_quaternion(Quat(*flight["attitude"].T)), Vec3(*error.T[:3]))
+        error[:, 3:] -= np.cross(flight.vehicle.payload_center, np.column_stack(force))
+    error = error[used]
     rmse = [math.sqrt(math.fsum(axis**2) / len(axis)) for axis in error.T]
     change = np.diff(flight["push_force"], axis=0, prepend=0.0)[used]
     along, square = math.fsum((error[:, :3] * change).ravel()), math.fsum((change**2).ravel())
@@ -199,7 +205,7 @@ def _scores(entry: BenchmarkEntry, quick: bool, progress: Progress | None) -> Sc
         shown = progress and partial(_advance, progress, done, total)
         rows[name] = fly_task(entry, name, quick=quick, progress=shown)
         done += len(rows[name])
-    return {column.title: column.of(rows[column.task]) for column in columns}
+    return {column.title: column.of(rows.get(column.task, ())) for column in TABLES[entry.kind]}
 
 
 # ---- Baselines

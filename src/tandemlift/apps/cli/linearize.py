@@ -6,6 +6,7 @@ import json
 import sys
 from functools import partial
 from pathlib import Path
+from time import monotonic
 from typing import Any
 
 import click
@@ -148,8 +149,9 @@ def certify(
 
     loaded, chosen = load(mission, settings, controller), tiers.split(",") if tiers else TIERS
     with results_folder(out, Path("out") / f"{loaded.mission.name}-certificate", ()) as folder:
+        left = partial(_tell_tier, [name for name in TIERS if name in chosen], how["fly"], how["flights"], monotonic())
         with compile_notices.together():
-            found = certified(loaded, chosen, folder=folder / "statistics", tell=partial(click.echo, err=True), **how)
+            found = certified(loaded, chosen, folder=folder / "statistics", progress=left, **how)
         echo(*certificate_lines(found))
         for path in write_certificate(found, folder):
             echo(f"  {path.suffix[1:]}: {path}")
@@ -158,6 +160,26 @@ def certify(
         sys.exit(INTERRUPTED)
     if strict and (found.missed or found.not_formed):
         sys.exit(FAILED)
+
+
+SECONDS = {  # of a tier of `iris` on two cores, without flights that look for its limits and with them; of a flight
+    "linear": (20.0, 60.0),
+    "structured": (20.0, 20.0),
+    "person": (10.0, 60.0),
+    "nonlinear": (40.0, 60.0),
+    "statistics": (0.03, 0.03),
+}
+
+
+def _tell_tier(tiers: list[str], fly: bool, flights: int, began: float, done: int, of: int) -> None:
+    """Print the tier that begins, and the time left: by `SECONDS` at first, then by the pace of the tiers done."""
+    if done < of:
+        from tandemlift.analysis.studies.estimate import duration
+
+        work = [SECONDS[name][fly] * (flights if name == "statistics" else 1) for name in tiers]
+        pace = (monotonic() - began) / sum(work[:done]) if done else 1.0
+        left = f"about {duration(sum(work[done:]) * pace)} left"
+        click.echo(f"tier {done + 1} of {of}, {tiers[done]}: {left}", err=True)
 
 
 @click.command()

@@ -82,10 +82,8 @@ MISSED = 0.5  # of the push: an estimate that misses more has no delay; by least
 
 def delay(row: Row) -> float | None:
     """The delay of an estimate [ms] in the nominal flight."""
-    late = metric("push_delay_s", None, 1e3, NOMINAL)(row)
-    if late is None or math.hypot(*row["push_force_rmse_n"]) > MISSED * math.hypot(*row["push_force_rms_n"]):
-        return None
-    return late
+    error, push = (math.hypot(*row.get(f"push_force_{x}_n") or (0.0,)) for x in ("rmse", "rms"))
+    return None if error > MISSED * push else metric("push_delay_s", None, 1e3, NOMINAL)(row)
 
 
 TABLES: dict[Kind, tuple[Column, ...]] = {
@@ -120,42 +118,29 @@ TABLES: dict[Kind, tuple[Column, ...]] = {
 WIDE, LONGEST = 80, 24  # of a terminal and of a name, in characters
 
 
-def text_of(number: float | None) -> str:
-    """A number with three digits, or a dash without one."""
-    if number is None:
-        return "–"
-    return f"{number:,.0f}" if abs(number) >= 100.0 else f"{number:.3g}"
-
-
 def lines_of(kind: Kind, rows: Mapping[str, Scores], own: str = "") -> list[str]:
-    """Tables as Markdown, as narrow as a terminal: a column for each row of the scores; `own` is in every table."""
+    """Tables as Markdown that fit a terminal: a column for each row of the scores; that of `own` is in every table."""
 
-    def texts(name: str) -> list[str]:
-        head = name if len(name) <= LONGEST else f"{name[: LONGEST - 1]}…"
-        return [head, *(text_of(rows[name].get(title)) for title in titles)]
+    def column(name: str) -> list[str]:
+        head, numbers = name if len(name) <= LONGEST else f"{name[: LONGEST - 1]}…", [rows[name].get(t) for t in titles]
+        shown = ("–" if x is None else f"{x:,.0f}" if abs(x) >= 1e3 else f"{x:.4g}" for x in numbers)
+        return _wide([head, ":", *shown], str.rjust)
 
     titles = [column.title for column in TABLES[kind]]
-    same = [[kind, *titles], *([texts(own)] if own else [])]
-    tables = [same]
-    for column in (texts(name) for name in rows if name != own):
-        if _width(wider := [*tables[-1], column]) > WIDE:
-            tables.append([*same, column])
-        else:
-            tables[-1] = wider
-    return [line for table in tables for line in (*_markdown(table), "")][:-1]
+    first = [_wide([kind, "", *titles], str.ljust), *([column(own)] if own else [])]
+    tables = [first]
+    for table_column in (column(name) for name in rows if name != own):
+        if sum(len(c[0]) + 3 for c in (*tables[-1], table_column)) >= WIDE:
+            tables.append(first)
+        tables[-1] = [*tables[-1], table_column]
+    lines = [[f"| {' | '.join(row)} |" for row in zip(*table, strict=True)] for table in tables]
+    return [line for table in lines for line in (*table, "")][:-1]
 
 
-def _width(columns: list[list[str]]) -> int:
-    return sum(max(map(len, column)) + 3 for column in columns) + 1
-
-
-def _markdown(columns: list[list[str]]) -> list[str]:
-    sizes = [max(map(len, column)) for column in columns]
-    body = [
-        " | ".join([row[0].ljust(sizes[0]), *map(str.rjust, row[1:], sizes[1:])]) for row in zip(*columns, strict=True)
-    ]
-    rule = "|".join(["-" * (sizes[0] + 2), *("-" * (size + 1) + ":" for size in sizes[1:])])
-    return [f"| {body[0]} |", f"|{rule}|", *(f"| {line} |" for line in body[1:])]
+def _wide(texts: list[str], align: Callable[[str, int], str]) -> list[str]:
+    """Texts of one width; the second, of the rule below the head, is filled with dashes."""
+    size = max(map(len, texts))
+    return [align(text, size) if i != 1 else "-" * (size - len(text)) + text for i, text in enumerate(texts)]
 
 
 def json_of(tables: Mapping[Kind, Mapping[str, Scores]]) -> str:

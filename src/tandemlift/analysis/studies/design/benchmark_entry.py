@@ -8,13 +8,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Literal, NamedTuple, get_args
 
+import numpy as np
+
 from tandemlift.core.errors import InputError
-from tandemlift.core.vector import ZERO, Vec3
+from tandemlift.core.types import Array
 from tandemlift.missions import Mission
 from tandemlift.parts.controllers import CONTROLLERS
 from tandemlift.parts.controllers.user_controller import file_text, run_file
-from tandemlift.parts.estimation.wrench.observation import ExternalWrench, NominalBody, Observation, observe
-from tandemlift.parts.estimation.wrench.start_observer import OwnObserver
 
 Kind = Literal["controllers", "observers", "policies"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
@@ -28,18 +28,9 @@ WHAT = (
 )
 
 
-class Silent(NamedTuple):
-    """An observer that says nothing: the vehicle."""
-
-    body: NominalBody
-
-
-@observe.register(Silent)
-def _nothing(k: Silent, m: Vec3, x: Observation) -> tuple[ExternalWrench, Vec3]:
-    return ExternalWrench(ZERO, ZERO), m
-
-
-SILENT = OwnObserver(lambda body, noise, interval: (Silent(body), ZERO))
+def nothing(table: Any) -> Array:
+    """An observer, as a function of a table, that says nothing."""
+    return np.zeros((len(table), 6))
 
 
 class BenchmarkEntry(NamedTuple):
@@ -50,7 +41,7 @@ class BenchmarkEntry(NamedTuple):
         name: of the row.
         changes: of every mission that it flies.
         controller: its name, or its file; "" for the mission's.
-        law: an observer of one's own, or the one that says nothing, an `OwnObserver`; None for others.
+        law: an observer of one's own, an `OwnObserver`; None for others.
         function: an observer that is a function of a table (see `benchmark.of_function`); None for others.
         file: of the entry; None for a baseline.
     """
@@ -71,7 +62,7 @@ def baselines(kind: Kind) -> list[BenchmarkEntry]:
         return [BenchmarkEntry(kind, name, {}, name) for name in own]
     if kind == "observers":
         found = [BenchmarkEntry(kind, name, {WRENCH: name}) for name in get_args(_annotation("estimator", "wrench"))]
-        return [*found, BenchmarkEntry(kind, "zero", {WRENCH: STOOD_IN}, law=SILENT)]
+        return [*found, BenchmarkEntry(kind, "zero", {WRENCH: RECORDED}, function=nothing)]
     return [
         BenchmarkEntry(kind, "damping of 1.6 N s/m", {f"{POLICY}.model": "none"}),
         BenchmarkEntry(kind, "damping of 1.0 N s/m", {f"{POLICY}.model": "none", "admittance.damping": 1.0}),

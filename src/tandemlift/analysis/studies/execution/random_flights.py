@@ -13,7 +13,6 @@ from tandemlift.analysis.studies.execution.chunk_scheduling import fly_study
 from tandemlift.analysis.studies.execution.store import open_folder
 from tandemlift.core.files import write_file
 from tandemlift.core.phases import FAILURES
-from tandemlift.core.types import Progress
 from tandemlift.missions import Mission, format_toml, tables_of
 
 MASS, INERTIA, DELAY = 0.1, 0.15, 0.005  # half widths of factors; s beyond the mission's delay
@@ -76,14 +75,14 @@ def what_is_drawn(plan: StudyPlan) -> tuple[str, str]:
     )
 
 
-def random_flights(plan: StudyPlan, folder: Path, progress: Progress | None = None) -> list[RandomFlight]:
+def random_flights(plan: StudyPlan, folder: Path) -> list[RandomFlight]:
     """Fly a plan from `random_plan`; what the folder already holds is not flown again.
 
     Raises:
         InputError: the folder holds another study, or an optional package is missing (extra: study).
     """
     store = open_folder(plan, folder)
-    fly_study(plan, store, progress=progress)
+    fly_study(plan, store)
     from pyarrow import parquet  # which the folder needs
 
     files = [parquet.read_table(store.files.file(name), columns=["outcome", "finding_kinds"]) for name in store.names()]

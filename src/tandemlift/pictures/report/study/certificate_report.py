@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 import tempfile
-import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -22,7 +21,6 @@ from tandemlift.analysis.certification.statistics import FLIGHTS, statistics_tie
 from tandemlift.analysis.linearization.claims import Claim, Tier
 from tandemlift.analysis.robustness.nonlinear import nonlinear_tier
 from tandemlift.analysis.robustness.structured import DEFAULT_BOX, structured_tier
-from tandemlift.analysis.studies.estimate import duration
 from tandemlift.core.errors import InputError, extra, unknown
 from tandemlift.core.files import DATA, __version__, atomic_write
 from tandemlift.core.progress import progress_or_own
@@ -37,13 +35,6 @@ from tandemlift.pictures.report.study.words import command
 PAGE, JSON, PDF, SOURCE = "certificate.html", "certificate.json", "certificate.pdf", "report.typ"
 MISSION = "mission.toml"
 NONE, MINUS = "none", "−"
-SECONDS = {  # of a tier of `iris` on two cores, without flights for its limits and with them
-    "linear": (10.0, 60.0),
-    "structured": (20.0, 20.0),
-    "person": (10.0, 60.0),
-    "nonlinear": (40.0, 60.0),
-    "statistics": (60.0, 60.0),
-}
 PACKAGES = ("numpy", "scipy", "slycot", "cvxpy")
 
 
@@ -57,7 +48,6 @@ def certify(
     flights: int = FLIGHTS,
     folder: str | Path | None = None,
     progress: Progress | None = None,
-    tell: Callable[[str], object] | None = None,
 ) -> Certificate:
     """How far a mission is from instability, with which parameters and person, and how often it fails.
 
@@ -70,7 +60,6 @@ def certify(
         flights: number of random flights of the tier of statistics.
         folder: of that tier's study, which goes on where it stopped; by default a temporary one.
         progress: called with (tiers done, tiers in all).
-        tell: called with a line as a tier begins, and with each tenth of the flights: its name, and the time left.
 
     Returns:
         The certificate; a tier that cannot be formed for this mission has the reason. Ctrl-C after a tier ends it with
@@ -100,14 +89,12 @@ def certify(
             "structured": lambda: structured_tier(mission, box or DEFAULT_BOX),
             "person": lambda: person_tier(mission, arms, fly=fly),
             "nonlinear": lambda: nonlinear_tier(mission, fly=fly),
-            "statistics": lambda: statistics_tier(mission, study, flights, left.flown),
+            "statistics": lambda: statistics_tier(mission, study, flights),
         }
-        left = _TimeLeft(chosen, flights, fly, tell)
         try:
             for done, name in enumerate(chosen):
                 if shown:
                     shown(done, len(chosen))
-                left.begin(done)
                 found.append(with_limits(forms[name](), mission, fly))
             if shown:
                 shown(len(chosen), len(chosen))
@@ -116,31 +103,6 @@ def certify(
                 raise
     day, stopped = f"{datetime.now(UTC):%Y-%m-%d}", len(found) < len(chosen)
     return Certificate(mission.mission.name, tuple(found), _versions(), tables_of(mission), fly, day, stopped)
-
-
-class _TimeLeft:
-    """Tells the tier and the time that is left: by `SECONDS` at first, then by the pace of the work that is done."""
-
-    def __init__(self, tiers: Sequence[str], flights: int, fly: bool, tell: Callable[[str], object] | None) -> None:
-        self._tiers, self._tell, self._began = tiers, tell, time.monotonic()
-        sizes = {name: seconds[fly] for name, seconds in SECONDS.items()}
-        sizes["statistics"] *= flights / FLIGHTS
-        self._work = [sizes[name] for name in tiers]
-        self._at = self._tenth = 0
-
-    def begin(self, tier: int, share: float = 0.0) -> None:
-        """Tell of a tier, by its number, of which a share is done."""
-        self._at, done = tier, sum(self._work[:tier]) + share * self._work[tier]
-        pace = (time.monotonic() - self._began) / done if done else 1.0
-        if self._tell:
-            left = duration((sum(self._work) - done) * pace)
-            self._tell(f"tier {tier + 1} of {len(self._tiers)}, {self._tiers[tier]}: about {left} left")
-
-    def flown(self, flights: int, of: int) -> None:
-        """Tell of each tenth of the random flights."""
-        if (tenth := 10 * flights // max(of, 1)) > self._tenth and flights < of:
-            self._tenth = tenth
-            self.begin(self._at, flights / of)
 
 
 def _versions() -> dict[str, str]:
