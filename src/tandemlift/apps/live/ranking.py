@@ -88,6 +88,7 @@ def _flown_again(path: Path, challenge: Mapping[str, Any], free: tuple[str, ...]
 
 def _content(path: Path, name: str) -> bytes | None:
     """A file of a saved flight, or None without it; a large one or a device is refused before it is read."""
+    size: float | None
     if path.suffix == ".zip":
         with zipfile.ZipFile(path) as archive:
             size = archive.getinfo(name).file_size if name in archive.namelist() else None
