@@ -226,8 +226,8 @@ def certificate_lines(certificate: Certificate) -> Iterator[str]:
             yield f"  not formed: {tier.reason}"
         rows = []
         for row in map(_row, tier.claims):
-            words = (row["bar"] and f"bar {row['bar']}", row["verdict"], row["flown"] and f"flown {row['flown']}")
-            rows.append((row["name"], f"{row['value']:>8} {row['unit']:4}", " ".join(filter(None, words)), row["text"]))
+            said = (row["bar"] and f"bar {row['bar']}", row["verdict"], row["flown"] and f"flown {row['flown']}")
+            rows.append((row["name"], f"{row['value']:>8} {row['unit']:4}", " ".join(filter(None, said)), row["text"]))
         wide, _, beside, _ = [max(map(len, column)) for column in zip(*rows, strict=True)] if rows else (0, 0, 0, 0)
         for name, value, words, text in rows:
             yield f"  {name:{wide}}  {value} {words:{beside}}{' ' * bool(beside)}{text}".rstrip()
