@@ -8,6 +8,7 @@ import math
 import re
 import shlex
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from repository import ROOT
 from scipy.stats import beta
 
 import tandemlift as tl
+from tandemlift.analysis.certification import linear
 from tandemlift.analysis.certification.certificate import TIERS, Certificate
 from tandemlift.analysis.certification.flown import with_limits
 from tandemlift.analysis.certification.statistics import _claims
@@ -157,6 +159,23 @@ def test_a_number_that_ends_the_search_is_at_least_that_and_no_value(tmp_path):
     found = largest(lambda x: True, 1.0, 100.0)
     assert found == math.inf
     assert largest(lambda x: x < 99.0, 1.0, 100.0) == pytest.approx(99.0, rel=2e-3), "as far as is said"
+
+
+def test_a_loop_whose_gain_is_nowhere_1_tolerates_any_phase():
+    """|L| = 1/2 at all frequencies: no change of phase alone makes 1 + L zero."""
+    w, L = np.geomspace(1.0, 100.0, 50), np.tile(0.5 * np.eye(4) + 0j, (50, 1, 1))
+    loop = SimpleNamespace(open=SimpleNamespace(w=w), L=L, at_rotors=L)
+    phases = [claim for claim in linear._margins(loop) if claim.quantity == "phase margin"]
+    assert [(claim.value, claim.verdict, claim.text) for claim in phases] == [
+        (math.inf, "met", "the gain is 1 nowhere")
+    ] * 4
+
+
+def test_a_least_number_without_a_limit_is_none_and_not_zero(monkeypatch):
+    monkeypatch.setattr(linear, "linear_limit", lambda mission, name, growing: (math.inf if growing else 0.0, 0.0))
+    claims = list(linear.changed_limits(load_mission("hover")))
+    assert [claim.subject for claim in claims if claim.quantity == "least inertia"] == ["roll", "pitch", "yaw"]
+    assert {certificate_report._row(claim)["value"] for claim in claims} == {"none"}
 
 
 def test_a_column_without_a_text_is_left_out(tmp_path):
