@@ -25,11 +25,9 @@ from tandemlift.analysis.studies.execution.flying import fly_each
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.files import DATA
 from tandemlift.core.types import Array, Progress
-from tandemlift.core.vector import Quat, Vec3, apply_transposed
 from tandemlift.flight.corridor_score import score_of
 from tandemlift.flight.record import Flight
 from tandemlift.parts.controllers.registry import error_text
-from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
 AT_ONCE = 4  # flights in memory
 FORCES = [round(3.0 / 1.2**i, 3) for i in range(16)]  # N: steps of a push, from 3 to 0.2 N
@@ -128,8 +126,10 @@ def of_function(observer: Callable[..., Any], flight: Flight) -> Row:
         raise InputError("observer() is not causal: its estimates change when the rows after them are left out")
     error = found - np.hstack([flight["push_force"], flight["push_moment"]])[:, : found.shape[1]]
     if error.shape[1] == 6:  # about the payload's centre of mass, as of a law
-        force = apply_transposed(rotation_from_quaternion(Quat(*flight["attitude"].T)), Vec3(*error.T[:3]))
-        error[:, 3:] -= np.cross(flight.vehicle.payload_center, np.column_stack(force))
+        w, axis = flight["attitude"][:, :1], flight["attitude"][:, 1:]
+        turn = np.cross(axis, error[:, :3])
+        force = error[:, :3] + 2.0 * (np.cross(axis, turn) - w * turn)  # in body axes
+        error[:, 3:] -= np.cross(flight.vehicle.payload_center, force)
     error = error[used]
     rmse = [math.sqrt(math.fsum(axis**2) / len(axis)) for axis in error.T]
     change = np.diff(flight["push_force"], axis=0, prepend=0.0)[used]

@@ -73,7 +73,7 @@ def certify(
     for name in tiers:
         if name not in TIERS:
             raise unknown("tier", name, TIERS)
-    chosen, found = [name for name in TIERS if name in tiers], list[Tier]()
+    chosen = [name for name in TIERS if name in tiers]
     arms = ArmBox() if arm is None else ArmBox(*arm).checked()
     with extra("certify", "a certificate"):
         from threadpoolctl import threadpool_limits
@@ -91,18 +91,27 @@ def certify(
             "nonlinear": lambda: nonlinear_tier(mission, fly=fly),
             "statistics": lambda: statistics_tier(mission, study, flights),
         }
-        try:
-            for done, name in enumerate(chosen):
-                if shown:
-                    shown(done, len(chosen))
-                found.append(with_limits(forms[name](), mission, fly))
-            if shown:
-                shown(len(chosen), len(chosen))
-        except KeyboardInterrupt:
-            if not found:
-                raise
+        found = _formed([forms[name] for name in chosen], lambda tier: with_limits(tier, mission, fly), shown)
     day, stopped = f"{datetime.now(UTC):%Y-%m-%d}", len(found) < len(chosen)
     return Certificate(mission.mission.name, tuple(found), _versions(), tables_of(mission), fly, day, stopped)
+
+
+def _formed(
+    forms: Sequence[Callable[[], Tier]], finish: Callable[[Tier], Tier], progress: Progress | None
+) -> list[Tier]:
+    """The tiers that are formed before Ctrl-C, if there is one."""
+    found = list[Tier]()
+    try:
+        for form in forms:
+            if progress:
+                progress(len(found), len(forms))
+            found.append(finish(form()))
+        if progress:
+            progress(len(forms), len(forms))
+    except KeyboardInterrupt:
+        if not found:
+            raise
+    return found
 
 
 def _versions() -> dict[str, str]:
