@@ -11,10 +11,11 @@ import pyarrow.parquet as pq
 import pytest
 from click.testing import CliRunner
 from repository import ROOT
+from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
 from tandemlift.analysis.studies import benchmark
-from tandemlift.analysis.studies.design.benchmark_columns import TABLES, csv_of, json_of, rms
+from tandemlift.analysis.studies.design.benchmark_columns import TABLES, csv_of, json_of, lines_of, rms
 from tandemlift.analysis.studies.design.benchmark_entry import (
     KINDS,
     BenchmarkEntry,
@@ -32,6 +33,7 @@ from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable
 
 observer = OwnObserver(lambda *known: start_wrench_observer("hybrid", WrenchTable(), *known))
 """
+NAMES = ("roll (N m)", "pitch (N m)", "yaw (N m)")
 TASKS, COLUMNS = benchmark.tasks, benchmark.TABLES  # as they are
 LAW = (ROOT / "examples" / "observers" / "own_law.py").read_text("utf-8")
 CONTROLLER = (ROOT / "examples" / "my_controller.py").read_text("utf-8").replace("my-pd", "entry-pd")
@@ -79,7 +81,7 @@ def scored(tmp_path_factory):
     here = tmp_path_factory.mktemp("entries")
     (here / "own_hybrid.py").write_text(HYBRID)
     (here / "own_law.py").write_text(LAW)
-    entries = {one.name: one for one in baselines("observers") if one.name in ("hybrid", "kalman", "momentum")}
+    entries = {one.name: one for one in baselines("observers") if one.name in ("hybrid", "kalman", "momentum", "zero")}
     entries |= {name: entry_of(here / f"{name}.py") for name in ("own_hybrid", "own_law")}
     again = entries["momentum"]._replace(name="momentum again")
     entries |= {again.name: again}
@@ -140,12 +142,46 @@ def test_an_own_law_flies_in_place_of_a_built_in_one(scored):
     assert scored["own_law"]["delay (ms)"] > scored["hybrid"]["delay (ms)"]  # 12 rad/s, 20 rad/s
 
 
+def test_an_observer_without_a_moment_no_longer_wins_and_one_that_says_nothing_is_in_the_table(scored):
+    """`own_law` gives no moment. What is missed by zero is the push itself: sums over its Gaussians in the 12 s."""
+    for axis in ("roll", "pitch", "yaw"):
+        best = min(scored[name][f"M {axis} (N m)"] for name in ("kalman", "hybrid", "momentum"))
+        assert best < 0.8 * scored["own_law"][f"M {axis} (N m)"]
+    for axis, peak, sigma in (("x", 3.0, 0.6), ("z", 1.5, 0.5)):
+        square = peak**2 * sigma * math.sqrt(math.pi) * (1.0 if axis == "z" else 0.5 * (1.0 + math.erf(2.0 / sigma)))
+        assert scored["zero"][f"F {axis} (N)"] == pytest.approx(math.sqrt(square / (24.0 - 12.0)), rel=0.01)
+    assert scored["zero"]["delay (ms)"] is None, "0 ms by least squares, since nothing is estimated"
+
+
+@pytest.mark.parametrize("quick", [True, False])
+def test_zero_is_the_worst_of_the_shipped_rows_in_every_error(quick):
+    rows = benchmark.shipped_tables(quick=quick)["observers"]
+    for title in (f"{c} {n}" for c, n in zip("FFFMMM", ("x (N)", "y (N)", "z (N)", *NAMES), strict=True)):
+        others = [row[title] for name, row in rows.items() if name != "zero"]
+        assert rows["zero"][title] > 1.5 * max(others), title
+
+
+def test_the_tables_fit_a_terminal_of_80_columns_whatever_the_names_and_lose_no_number():
+    for kind in KINDS:
+        rows = {**benchmark.shipped_tables()[kind], "m" * 90: next(iter(benchmark.shipped_tables()[kind].values()))}
+        for own in ("", "m" * 90):
+            lines = lines_of(kind, rows, own)
+            assert max(map(len, lines)) <= 80
+            cells = [[cell.strip() for cell in line.split("|")[1:-1]] for line in lines]
+            shown = {name for row in cells if row and row[0] == kind for name in row[1:]}
+            assert shown == {*rows} - {"m" * 90} | {"m" * 23 + "…"}
+
+
 def test_a_function_has_the_errors_that_the_flight_has_of_the_same_estimate():
+    """The pilot's moment is about the payload's centre of mass, that of a function about the vehicle's."""
     changes = {"estimator.wrench": "kalman", "estimator.error_metrics": True, "mission.log_interval": 0.001}
     flight = tl.fly(tl.load_mission("iris", {**changes, "mission.duration": 18.0}))
-    found = benchmark.of_function(lambda table: flight["push_estimate"][: len(table)], flight)
-    for name in ("push_force_rmse_n", "push_delay_s"):
-        assert found[name] == pytest.approx(flight.metrics()[name], rel=1e-3)
+    force = Rotation.from_quat(flight["attitude"], scalar_first=True).inv().apply(flight["push_estimate"])
+    below = [0.0, 0.0, -2.0 * 1.5 * 0.075 / 3.5]  # m: the beam, by the masses of both quadrotors and their height
+    both = np.hstack([flight["push_estimate"], flight["push_moment_estimate"] + np.cross(below, force)])
+    found = benchmark.of_function(lambda table: both[: len(table)], flight)
+    for name in ("push_force_rmse_n", "push_moment_rmse_n_m", "push_delay_s"):
+        assert found[name] == pytest.approx(flight.metrics()[name], rel=2e-3)
 
 
 BRANCHING = LAW.replace("    force = m", "    if x.dt > 1:\n        return 0\n    force = m")
@@ -244,8 +280,11 @@ def test_the_command_prints_the_row_beside_the_baselines(tmp_path):
     out = tmp_path / "out"
     done = CliRunner().invoke(cli, ["benchmark", str(tmp_path / "own_law.py"), "--quick", "--out", str(out)])
     assert done.exit_code == 0, done.output
-    names = [line.split("|")[1].strip() for line in done.output.splitlines() if line.startswith("| ")]
-    assert names == ["observers", *(one.name for one in baselines("observers")), "own_law"]
+    lines = done.output.splitlines()
+    assert max(map(len, lines)) <= 80
+    heads = [[cell.strip() for cell in line.split("|")[1:-1]] for line in lines if line.startswith("| observers")]
+    assert all(head[:2] == ["observers", "own_law"] for head in heads), "the entry is beside all baselines"
+    assert [name for head in heads for name in head[2:]] == [one.name for one in baselines("observers")]
     text = (out / "scores.csv").read_text()
     assert text.startswith("kind,name,column,value\n")
     assert "observers,own_law,delay (ms)," in text

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import math
 from collections.abc import Mapping
@@ -9,9 +10,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from tandemlift.analysis.linearization.claims import MISSED, Claim, Tier
+from tandemlift.analysis.linearization.claims import MET, MISSED, Claim, Tier
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import write_file
+from tandemlift.missions import format_toml
+
+TIERS = ("linear", "structured", "person", "nonlinear", "statistics")
 
 
 @dataclass(frozen=True)
@@ -23,12 +27,18 @@ class Certificate:
         tiers: in the order of their strength, from the linear model to flights.
         versions: of the packages that computed it.
         tables: of the mission, with every key.
+        flown: whether flights looked for the predicted limits.
+        made: the day on which it was computed, as in 2026-01-31.
+        stopped: whether it was stopped before all tiers that were asked for.
     """
 
     mission: str
     tiers: tuple[Tier, ...]
     versions: Mapping[str, str]
     tables: Mapping[str, Any] = field(default_factory=dict)
+    flown: bool = False
+    made: str = ""
+    stopped: bool = False
 
     def tier(self, name: str) -> Tier:
         """A tier by its name.
@@ -48,10 +58,52 @@ class Certificate:
         """The claims below their bar."""
         return tuple(claim for tier in self.tiers for claim in tier.claims if claim.verdict == MISSED)
 
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """The tiers, by name, that are not in it."""
+        return tuple(name for name in TIERS if name not in [tier.name for tier in self.tiers])
+
+    @property
+    def not_formed(self) -> tuple[str, ...]:
+        """The tiers, by name, that were asked for and have no numbers."""
+        return tuple(tier.name for tier in self.tiers if not tier.claims)
+
+    @property
+    def scope(self) -> str:
+        """What the certificate covers, in a sentence: its tiers, those that were left out, and whether limits flew."""
+        names = [tier.name for tier in self.tiers]
+        parts = ["Stopped before its end"] * self.stopped
+        parts += [f"{len(names)} of {len(TIERS)} tiers: {', '.join(names) or 'none'}"]
+        parts += [f"left out: {', '.join(self.left_out)}"] * bool(self.left_out)
+        parts += [f"not formed: {', '.join(self.not_formed)}"] * bool(self.not_formed)
+        limits = any(claim.limit is not None for tier in self.tiers for claim in tier.claims)
+        parts += ["no limits" if not limits else "limits flown" if self.flown else "limits predicted, not flown"]
+        return f"{'; '.join(parts)}."
+
+    @property
+    def mission_sha256(self) -> str:
+        """The SHA-256 of the mission with every key, as `mission.toml` beside the certificate."""
+        return hashlib.sha256(format_toml(self.tables).encode()).hexdigest()
+
+    @property
+    def verdict(self) -> str:
+        """The numbers below their bar, or how many have one, in a sentence."""
+        if missed := self.missed:
+            return f"Below the bar: {'; '.join(claim.name for claim in missed)}."
+        judged = sum(claim.verdict == MET for tier in self.tiers for claim in tier.claims)
+        return f"No number is below its bar, of {judged} that have one." if judged else "No number has a bar."
+
     def to_dict(self) -> dict[str, Any]:
         """The certificate as plain data; a number without a limit is the text "unlimited", one that is unknown None."""
         return {
+            "scope": self.scope,
+            "verdict": self.verdict,
             "mission": self.mission,
+            "mission_sha256": self.mission_sha256,
+            "made": self.made,
+            "flown": self.flown,
+            "stopped": self.stopped,
+            "left_out": list(self.left_out),
             "tables": _finite(self.tables),
             "versions": dict(self.versions),
             "tiers": [
@@ -74,7 +126,9 @@ class Certificate:
 
 def _plain(claim: Claim) -> dict[str, Any]:
     flown = claim.flown._asdict() if claim.flown is not None else None
-    return _finite({**claim._asdict(), "flown": flown, "verdict": claim.verdict})
+    value = claim.tried if claim.is_least else claim.value
+    more = {"value": value, "at_least": claim.is_least, "flown": flown, "verdict": claim.verdict}
+    return _finite({**claim._asdict(), **more})
 
 
 def _finite(value: Any) -> Any:

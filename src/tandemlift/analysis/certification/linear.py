@@ -18,6 +18,7 @@ from tandemlift.analysis.certification.disk_margins import disk_margin, disk_siz
 from tandemlift.analysis.linearization.claims import Claim, Tier
 from tandemlift.analysis.linearization.loop_margins import (
     AXES,
+    MOST,
     OpenLoop,
     axis_margins,
     is_stable,
@@ -106,17 +107,19 @@ def _margins(loop: LoopAsFlown) -> Iterator[Claim]:
     w, L = loop.open.w, loop.L
     for i, m in enumerate(axis_margins(w, L)):
         gain = min(abs(20.0 * math.log10(x)) if 0.0 < x < math.inf else NO_LIMIT for x in (m.gain, m.least_gain))
-        text = f"the gain may grow {_grown(m.gain)} and fall to {m.least_gain:.3g} times"
-        yield Claim("gain margin", m.axis, gain, "dB", GAIN_BAR, text)
-        text = f"at {m.crossover:.3g} rad/s, where the gain is 1"
-        yield Claim("phase margin", m.axis, abs(m.phase), "deg", PHASE_BAR, text, m.crossover)
+        text = f"the gain may grow {_times(m.gain)} and fall {_times(m.least_gain)}"
+        yield Claim("gain margin", m.axis, gain, "dB", GAIN_BAR, text, tried=NO_LIMIT)
+        phase, text = abs(m.phase), f"at {m.crossover:.3g} rad/s, where the gain is 1"
+        if math.isnan(phase):
+            phase, text = math.inf, "the gain is 1 nowhere"
+        yield Claim("phase margin", m.axis, phase, "deg", PHASE_BAR, text, m.crossover)
         yield from _disk(w, single_loop(L, i)[:, None, None], m.axis, DISK_GAIN_BAR, DISK_PHASE_BAR)
     yield from _disk(w, L, "all axes")
     yield from _disk(w, loop.at_rotors, "all rotors")
 
 
-def _grown(factor: float) -> str:
-    return "without limit" if factor == math.inf else f"to {factor:.3g} times"
+def _times(factor: float) -> str:
+    return f"to {factor:.3g} times" if 0.0 < factor < math.inf else "without limit"
 
 
 def _disk(
@@ -124,7 +127,7 @@ def _disk(
 ) -> Iterator[Claim]:
     d = disk_margin(w, L)
     text = f"smallest at {d.frequency:.3g} rad/s; gain and phase change together"
-    yield Claim("disk gain margin", subject, min(d.gain_db, NO_LIMIT), "dB", gain, text, d.frequency)
+    yield Claim("disk gain margin", subject, min(d.gain_db, NO_LIMIT), "dB", gain, text, d.frequency, tried=NO_LIMIT)
     yield Claim("disk phase margin", subject, d.phase, "deg", phase, text, d.frequency)
 
 
@@ -135,7 +138,8 @@ def rotor_limits(loop: LoopAsFlown) -> Iterator[Claim]:
         ("lag", loop.lag, largest(lambda x: is_stable(loop.open, loop.delay, x))),
     ):
         if at == math.inf:
-            yield Claim(f"{name} limit", "", at, "ms", text=f"no {name} up to 100 s makes the loops oscillate")
+            text = f"no {name} up to {MOST:g} s makes the loops oscillate"
+            yield Claim(f"{name} limit", "", at, "ms", text=text, tried=1e3 * MOST)
             continue
         limit = loop._replace(delay=at) if name == "delay" else loop._replace(lag=at)
         axis, frequency = oscillation(limit.open.w, limit.L)
@@ -159,7 +163,7 @@ def changed_limits(mission: Mission) -> Iterator[Claim]:
         if name == "mass" and at > lifted:
             at, frequency, text = lifted, math.nan, "times the pilot's value: the most that the rotors lift"
         if not 0.0 < at < math.inf:
-            yield Claim(quantity, axis, at, "1", text="no limit within a factor of 50")
+            yield Claim(quantity, axis, math.inf, "1", text="no limit within a factor of 50")
             continue
         if name == "mass" and at < 1.0 and mission.pilot.guidance == "interactive":
             push = f"a push of more than {min(mission.admittance.threshold):g} N, the threshold"

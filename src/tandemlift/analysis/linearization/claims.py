@@ -46,6 +46,8 @@ class Claim(NamedTuple):
         limit: that limit in the parameter's own unit, or None.
         nominal: the parameter's value in the mission, in the same unit, or None.
         flown: that limit as flights show it, or None.
+        tried: the largest number that is tried, in the unit of the value: one that reaches it is at least that. None
+            where nothing ends the search.
     """
 
     quantity: str
@@ -60,6 +62,12 @@ class Claim(NamedTuple):
     limit: float | None = None
     nominal: float | None = None
     flown: FlownLimit | None = None
+    tried: float | None = None
+
+    @property
+    def is_least(self) -> bool:
+        """Whether all that was tried passed: the number is at least `tried`."""
+        return self.tried is not None and self.value is not None and self.value >= self.tried
 
     @property
     def range(self) -> tuple[float, float | None] | None:
@@ -68,6 +76,11 @@ class Claim(NamedTuple):
             return None
         flown = self.flown.above if self.flown and 0.0 < self.flown.above < math.inf else None
         return self.limit / self.nominal, None if flown is None else flown / self.nominal
+
+    @property
+    def name(self) -> str:
+        """Quantity and subject."""
+        return f"{self.quantity}, {self.subject}" if self.subject else self.quantity
 
     @property
     def slug(self) -> str:

@@ -194,9 +194,9 @@ def largest(
     """The smallest number above 0 at which stability is lost, by bisection from `first` on; infinite beyond `most`."""
     low, high = 0.0, first
     while stable(high):
-        low, high = high, 1.5 * high
-        if high > most:
+        if high >= most:
             return math.inf
+        low, high = high, min(1.5 * high, most)
     low, high = bisected(stable, low, high, accuracy)
     return 0.5 * (low + high)
 

@@ -187,18 +187,22 @@ def _box_claims(pilot: PilotData, most: Sequence[float]) -> Iterator[Claim]:
     def finite(half: Array) -> bool:
         return bool(np.isfinite(bounds(thrusts, *box_of(half))).all())
 
-    whole = tolerated(lambda scale: finite(scale * sizes), LARGEST_BOX, BOX_BISECTIONS)
-    yield Claim("finite thrusts", "all", whole * BOX["angles"], "rad", text=f"within {_box_text(whole)}, no NaN")
+    whole, most_angle = (
+        tolerated(lambda scale: finite(scale * sizes), LARGEST_BOX, BOX_BISECTIONS),
+        LARGEST_BOX * BOX["angles"],
+    )
+    text = f"within {_box_text(whole)}, no NaN"
+    yield Claim("finite thrusts", "all", whole * BOX["angles"], "rad", text=text, tried=most_angle)
     if not most:
         return
     whole = tolerated(lambda scale: within(scale * sizes), LARGEST_BOX, BOX_BISECTIONS)
-    yield Claim("thrusts within limits", "all", whole * BOX["angles"], "rad", text=f"within {_box_text(whole)}")
+    text = f"within {_box_text(whole)}"
+    yield Claim("thrusts within limits", "all", whole * BOX["angles"], "rad", text=text, tried=most_angle)
     for i, (name, unit) in enumerate(zip(BOX, ("m", "m/s", "rad", "rad/s"), strict=True)):
         alone = sizes * (np.arange(12) // 3 == i)
         size = BOX[name] * tolerated(lambda scale: within(scale * alone), LARGEST_BOX, BOX_BISECTIONS)  # noqa: B023
-        yield Claim(
-            "thrusts within limits", name, size, unit, text=f"with any {name} of up to this on each axis at once"
-        )
+        text = f"with any {name} of up to this on each axis at once"
+        yield Claim("thrusts within limits", name, size, unit, text=text, tried=LARGEST_BOX * BOX[name])
 
 
 def _box_text(scale: float) -> str:

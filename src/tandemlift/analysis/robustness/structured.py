@@ -177,7 +177,7 @@ def factors_of(proven: float, found: Worst, most: float) -> Iterator[Claim]:
     """The factor that is proven, the one that was found up to `most`, and the gap between them."""
     reach = ", the largest that is tried"
     text = f"no parameters within it make the hover oscillate{reach if proven >= most else ''}"
-    yield Claim("guaranteed factor", "box", proven, "box", 1.0, text)
+    yield Claim("guaranteed factor", "box", proven, "box", 1.0, text, tried=most)
     text = f"with {words(found.values)} the model oscillates" if found.values else f"none up to {most:.3g}{reach}"
     yield Claim("factor found", "box", found.factor, "box", None, text, found.frequency)
     if found.values:

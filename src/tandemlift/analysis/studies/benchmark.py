@@ -102,12 +102,18 @@ def corridor(flight: Flight) -> Row:
     return {"score_s": score.total, "touches": score.touches}
 
 
+def pushed(flight: Flight) -> Row:
+    """The root mean square of the push over the steps in which the pilot uses its estimate [N]; none without such."""
+    force = flight["push_force"][flight["push_usable"] > 0.0]
+    return {"push_force_rms_n": [math.sqrt(math.fsum(axis**2) / len(axis)) for axis in force.T] if len(force) else None}
+
+
 def of_function(observer: Callable[..., Any], flight: Flight) -> Row:
     """The metrics of an observer that is a function of a table, on a flight that another observer flew.
 
     `observer(table)` has a row for each logged sample, of the columns `COLUMNS`, and returns the force (n, 3) [N, world
-    axes] and, if it estimates it, the moment behind it (n, 6) [N·m, body axes, about the centre of mass]. The delay is
-    that of `parts.guidance.estimate_errors`, over the steps in which the pilot uses its own estimate.
+    axes] and, if it estimates it, the moment behind it (n, 6) [N·m, body axes, about the centre of mass]. Errors are
+    those of `simulation.loop.running_metrics`, over the steps in which the pilot uses its own estimate.
 
     Raises:
         InputError: it fails, returns something else, or uses later rows.
@@ -118,12 +124,19 @@ def of_function(observer: Callable[..., Any], flight: Flight) -> Row:
     found, early = _called(observer, table), _called(observer, table.iloc[:half].copy())
     if not np.allclose(found[:half][used[:half]], early[used[:half]], rtol=0.0, atol=1e-6):
         raise InputError("observer() is not causal: its estimates change when the rows after them are left out")
-    error = (found - np.hstack([flight["push_force"], flight["push_moment"]])[:, : found.shape[1]])[used]
+    error = found - np.hstack([flight["push_force"], flight["push_moment"]])[:, : found.shape[1]]
+    if error.shape[1] == 6:  # about the payload's centre of mass, as of a law
+        w, axis = flight["attitude"][:, :1], flight["attitude"][:, 1:]
+        turn = np.cross(axis, error[:, :3])
+        force = error[:, :3] + 2.0 * (np.cross(axis, turn) - w * turn)  # in body axes
+        error[:, 3:] -= np.cross(flight.vehicle.payload_center, force)
+    error = error[used]
     rmse = [math.sqrt(math.fsum(axis**2) / len(axis)) for axis in error.T]
     change = np.diff(flight["push_force"], axis=0, prepend=0.0)[used]
     along, square = math.fsum((error[:, :3] * change).ravel()), math.fsum((change**2).ravel())
     delay = -along / square * float(flight.time[1] - flight.time[0]) if square else None
-    return {"push_force_rmse_n": rmse[:3], "push_moment_rmse_n_m": rmse[3:] or None, "push_delay_s": delay}
+    errors = {"push_force_rmse_n": rmse[:3], "push_moment_rmse_n_m": rmse[3:] or None, "push_delay_s": delay}
+    return {**errors, **pushed(flight)}
 
 
 def _called(observer: Callable[..., Any], table: Any) -> Array:
@@ -137,7 +150,7 @@ def _called(observer: Callable[..., Any], table: Any) -> Array:
     return found
 
 
-OF_CHANNELS: dict[str, Callable[[Flight], Row]] = {"corridor": corridor, "steps": smallest_push}
+OF_CHANNELS: dict[str, Callable[[Flight], Row]] = {"corridor": corridor, "steps": smallest_push, "pushes": pushed}
 
 
 def fly_task(entry: BenchmarkEntry, task: str, *, quick: bool, progress: Progress | None = None) -> list[Row]:
@@ -192,7 +205,7 @@ def _scores(entry: BenchmarkEntry, quick: bool, progress: Progress | None) -> Sc
         shown = progress and partial(_advance, progress, done, total)
         rows[name] = fly_task(entry, name, quick=quick, progress=shown)
         done += len(rows[name])
-    return {column.title: column.of(rows[column.task]) for column in columns}
+    return {column.title: column.of(rows.get(column.task, ())) for column in TABLES[entry.kind]}
 
 
 # ---- Baselines

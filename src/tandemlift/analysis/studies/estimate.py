@@ -28,7 +28,7 @@ class StudyEstimate(NamedTuple):
         """The estimate in words, for so many workers: "threads", or "processes", which take seconds to start."""
         yield f"files   {self.chunks:,} of {self.rows_per_chunk} rows, some {_bytes(self.size)} in all"
         start = " beside their start" if kind == "processes" else ""
-        yield f"time    some {_time(self.seconds / count)} on {count} {kind}{start}; {_time(self.seconds)} on one"
+        yield f"time    some {duration(self.seconds / count)} on {count} {kind}{start}; {duration(self.seconds)} on one"
 
 
 def estimate(plan: StudyPlan) -> StudyEstimate:
@@ -53,7 +53,8 @@ def estimate(plan: StudyPlan) -> StudyEstimate:
     return StudyEstimate(plan.count, chunks, plan.rows_per_chunk, seconds, round(size))
 
 
-def _time(seconds: float) -> str:
+def duration(seconds: float) -> str:
+    """A time [s] in words."""
     for unit, length in (("days", 86400.0), ("h", 3600.0), ("min", 60.0)):
         if seconds >= 2.0 * length:
             return f"{seconds / length:.1f} {unit}"

@@ -26,6 +26,7 @@ DRAWINGS = (".png", ".pdf", ".svg")  # endings of a figure on its own
 HTML = (".html", ".htm")
 FILES = ("mission.toml", FLIGHT_FILE, "metrics.json", "metrics.csv", "metrics.tex", "findings.json", "report.html")
 FAILED = 3  # exit code of a flight that crashed, diverged or did not lift; with --strict also of one with findings
+INTERRUPTED = 130  # exit code after Ctrl-C, as shells report it
 
 engine_option = click.option(
     "--engine",

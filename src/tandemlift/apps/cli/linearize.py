@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import json
 import sys
+from functools import partial
 from pathlib import Path
+from time import monotonic
 from typing import Any
 
 import click
 
 from tandemlift.apps.cli.completion import MISSIONS
-from tandemlift.apps.cli.console import echo, print_checks, progress_bar
-from tandemlift.apps.cli.flying import DRAWINGS, FAILED, controller_option, load, set_option, style_option
+from tandemlift.apps.cli.console import compile_notices, echo, print_checks
+from tandemlift.apps.cli.flying import DRAWINGS, FAILED, INTERRUPTED, controller_option, load, set_option, style_option
 from tandemlift.apps.export.results import file_path, results_folder
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.files import write_file
@@ -110,7 +112,7 @@ def check(mission: str, settings: tuple[str, ...], controller: str | None, stric
 )
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME-certificate]")
 @style_option
-@click.option("--strict", is_flag=True, help="Exit with code 3 if a number is below its bar.")
+@click.option("--strict", is_flag=True, help="Exit with code 3 if a number is below its bar, or a tier not formed.")
 def certify(
     mission: str,
     settings: tuple[str, ...],
@@ -137,20 +139,47 @@ def certify(
       limits/                         missions that fly beyond each limit
       statistics/                     the study of random flights, which goes on where it stopped
 
-    Exit code 3: with --strict, a number is below its bar.
+    Tier and time left are told while it runs. Ctrl-C keeps the tiers so far.
+
+    Exit code 3: with --strict, a number is below its bar, or a tier has no numbers. 130: stopped; what is finished is
+    written.
     """
     from tandemlift.pictures.report.study.certificate_report import TIERS, certificate_lines, write_certificate
     from tandemlift.pictures.report.study.certificate_report import certify as certified
 
     loaded, chosen = load(mission, settings, controller), tiers.split(",") if tiers else TIERS
     with results_folder(out, Path("out") / f"{loaded.mission.name}-certificate", ()) as folder:
-        with progress_bar("Certifying", "tiers", shown=sys.stderr.isatty()) as shown:
-            found = certified(loaded, chosen, folder=folder / "statistics", progress=shown, **how)
+        left = partial(_tell_tier, [name for name in TIERS if name in chosen], how["fly"], how["flights"], monotonic())
+        with compile_notices.together():
+            found = certified(loaded, chosen, folder=folder / "statistics", progress=left, **how)
         echo(*certificate_lines(found))
         for path in write_certificate(found, folder):
             echo(f"  {path.suffix[1:]}: {path}")
-    if strict and found.missed:
+    if found.stopped:
+        click.echo("stopped; the tiers so far are written", err=True)
+        sys.exit(INTERRUPTED)
+    if strict and (found.missed or found.not_formed):
         sys.exit(FAILED)
+
+
+SECONDS = {  # of a tier of `iris` on two cores, without flights that look for its limits and with them; of a flight
+    "linear": (20.0, 60.0),
+    "structured": (20.0, 20.0),
+    "person": (10.0, 60.0),
+    "nonlinear": (40.0, 60.0),
+    "statistics": (0.03, 0.03),
+}
+
+
+def _tell_tier(tiers: list[str], fly: bool, flights: int, began: float, done: int, of: int) -> None:
+    """Print the tier that begins, and the time left: by `SECONDS` at first, then by the pace of the tiers done."""
+    if done < of:
+        from tandemlift.analysis.studies.estimate import duration
+
+        work = [SECONDS[name][fly] * (flights if name == "statistics" else 1) for name in tiers]
+        pace = (monotonic() - began) / sum(work[:done]) if done else 1.0
+        left = f"about {duration(sum(work[done:]) * pace)} left"
+        click.echo(f"tier {done + 1} of {of}, {tiers[done]}: {left}", err=True)
 
 
 @click.command()

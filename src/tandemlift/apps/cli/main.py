@@ -10,6 +10,7 @@ import click
 
 from tandemlift.apps.cli.console import compile_notices, exit_now, handle_interrupts
 from tandemlift.apps.cli.export import compile, export, render
+from tandemlift.apps.cli.flying import INTERRUPTED
 from tandemlift.apps.cli.identify import identify, shadow
 from tandemlift.apps.cli.keys import completion, controllers, engines, explain, missions, new, schema, template
 from tandemlift.apps.cli.linearize import certify, check, excite, linearize
@@ -24,7 +25,6 @@ from tandemlift.core.files import __version__
 from tandemlift.core.progress import watching
 
 BAD_INPUT = 2
-INTERRUPTED = 130  # as shells report it
 
 
 GROUPS: dict[str, tuple[click.Command, ...]] = {

@@ -196,7 +196,7 @@ def benchmark(file: Path | None, quick: bool, out: str | None) -> None:
                 own = {entry.name: scores_of(entry, quick=quick, progress=progress)}
                 tables = {entry.kind: {**shipped_tables(quick=quick)[entry.kind], **own}}
         for kind, rows in tables.items():
-            echo(*lines_of(kind, rows))
+            echo(*lines_of(kind, rows, entry.name if entry else ""), "")
         write_files(folder, dict(zip(SCORES, (json_of(tables), csv_of(tables)), strict=True)))
 
 

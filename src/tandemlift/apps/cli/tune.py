@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from tandemlift.analysis.studies.tuning.result import Tuning
     from tandemlift.analysis.studies.tuning.tune import TuneProgress
 
-NOT_BETTER, INTERRUPTED = 1, 130
+NOT_BETTER = 1
 FILES = ("tuned.toml", "evidence.json", "tune.html")
 
 
@@ -94,6 +94,8 @@ def tune(
       tune.html      all of it on one page that needs no network
       figures/       cost over candidates; old and new on holdout draws (PNG and PDF)
 
+    Mission and evidence so far are written after each population of candidates. The same command goes on there.
+
     Exit code 1: the new values are not better on holdout draws. 130: Ctrl-C; the best so far is written.
     """
     from tandemlift.analysis.studies.tuning.goals import goal_of
@@ -139,12 +141,12 @@ def _search(
     name = load_mission(mission, changes, controller=how.get("controller")).mission.name
     with results_folder(out, Path("out") / f"{name}-tuned", FILES) as folder:
         with compile_notices.together(), _progress() as progress:
-            found = search(mission, changes=changes, progress=progress, **how)
+            found = search(mission, changes=changes, progress=progress, folder=folder, **how)
         write_results(found, folder)
     echo(*tuning_lines(found), f"  mission: {folder / 'tuned.toml'}", f"  page: {folder / 'tune.html'}")
     if not found.is_finished:
         click.echo("stopped; the best so far is written, and was not flown on holdout draws", err=True)
-        sys.exit(INTERRUPTED)
+        sys.exit(flying.INTERRUPTED)
     if not found.is_better:
         sys.exit(NOT_BETTER)
 

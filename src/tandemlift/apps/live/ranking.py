@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import zipfile
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -12,14 +13,17 @@ from tandemlift.apps.live.session.challenge import SCORE_FILE
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.apps.live.session.parameters import dotted_values
 from tandemlift.core.errors import InputError, shown, without_flight_warnings
+from tandemlift.core.files import toml_tables
 from tandemlift.core.types import Progress
 from tandemlift.flight.corridor_score import CorridorScore, score_of
 from tandemlift.missions import Mission, load_mission, tables_of
-from tandemlift.missions.recording import MISSION_FILE, read_recording
+from tandemlift.missions.recording import HAND_FILE, MAX_UNPACKED, MISSION_FILE, read_recording
 from tandemlift.simulation.fly import fly
 
 FREE = ("mission.name", "mission.duration", "person.recording", "mission.fma")  # of each flight; rounding, of its page
 EQUAL = 1e-6  # s: scores are the same
+MOST = {MISSION_FILE: 1_000_000, HAND_FILE: MAX_UNPACKED, SCORE_FILE: 10_000}  # bytes of a file, unpacked
+LONGEST = 3600.0  # s of a flight
 
 
 class HandedIn(NamedTuple):
@@ -59,34 +63,54 @@ def scored(path: Path, challenge: Mapping[str, Any], free: tuple[str, ...]) -> H
         score, hand = _flown_again(path, challenge, free)
     except InputError as error:
         return HandedIn(name, None, str(error))
+    except Exception as error:  # all that arbitrary content can cause: the others are ranked
+        return HandedIn(name, None, f"{path.name}: cannot be read: {error or type(error).__name__}")
     return HandedIn(name, score, hand=hand)
 
 
 def _flown_again(path: Path, challenge: Mapping[str, Any], free: tuple[str, ...]) -> tuple[CorridorScore, bytes]:
+    contents = {name: _content(path, name) for name in MOST}
+    person = toml_tables((contents[MISSION_FILE] or b"").decode()).get("person", {})
+    if not isinstance(person, dict) or person.get("recording") != HAND_FILE:
+        raise InputError(f"{path.name}: has no recording of a hand")
     with without_flight_warnings():
         mission = load_mission(path if path.suffix == ".zip" else path / MISSION_FILE)
-        if mission.person.recording is None:
-            raise InputError(f"{path.name}: has no recording of a hand")
+        if mission.mission.duration > LONGEST:
+            raise InputError(f"mission.duration = {mission.mission.duration:g}: must be at most {LONGEST:g} s")
         _check_unchanged(dict(dotted_values(tables_of(mission))), challenge, free)
-        hand = read_recording(mission.person.recording)
+        hand = read_recording(str(mission.person.recording))
         score = score_of(fly(mission))
-    claimed = _claimed(path)
+    claimed = _claimed(path, contents[SCORE_FILE])
     if claimed is not None and abs(claimed - score.total) > EQUAL:
         raise InputError(f"{SCORE_FILE} says {claimed:.2f} s, but the recording flies {score.total:.2f} s")
     return score, hand.steps.tobytes() + hand.hands.tobytes()
 
 
-def _claimed(path: Path) -> float | None:
+def _content(path: Path, name: str) -> bytes | None:
+    """A file of a saved flight, or None without it; a large one or a device is refused before it is read."""
+    size: float | None
+    if path.suffix == ".zip":
+        with zipfile.ZipFile(path) as archive:
+            size = archive.getinfo(name).file_size if name in archive.namelist() else None
+            content = archive.read(name) if size is not None and size <= MOST[name] else None
+    else:
+        file = path / name
+        size = (file.stat().st_size if file.is_file() else math.inf) if file.exists() else None
+        content = file.read_bytes() if size is not None and size <= MOST[name] else None
+    if size is not None and content is None:
+        raise InputError(f"{path.name}: {name} must be a file of at most {MOST[name]:,} bytes")
+    return content
+
+
+def _claimed(path: Path, text: bytes | None) -> float | None:
     """The score [s] that the page wrote beside the flight; None for a flight that was saved without one."""
     try:
-        if path.suffix == ".zip":
-            with zipfile.ZipFile(path) as archive:
-                text = archive.read(SCORE_FILE) if SCORE_FILE in archive.namelist() else None
-        else:
-            text = (path / SCORE_FILE).read_bytes() if (path / SCORE_FILE).exists() else None
-        return None if text is None else float(json.loads(text)["score"])
-    except (ValueError, KeyError, TypeError):
+        score = None if text is None else float(json.loads(text)["score"])
+        if score is not None and not math.isfinite(score):
+            raise ValueError
+    except (ValueError, KeyError, TypeError, RecursionError, OverflowError):
         raise InputError(f"{path.name}: {SCORE_FILE} is no score") from None
+    return score
 
 
 def _check_unchanged(theirs: dict[str, Any], ours: Mapping[str, Any], free: tuple[str, ...]) -> None:

@@ -3,6 +3,10 @@
 import itertools
 import json
 import math
+import signal
+import subprocess
+import sys
+import time
 
 import numpy as np
 import pytest
@@ -13,6 +17,7 @@ from tandemlift.analysis.studies.tuning.candidates import Cost, Trial, cost_of
 from tandemlift.analysis.studies.tuning.draws import DrawSource, MissionSource, default_study
 from tandemlift.analysis.studies.tuning.goals import Goal
 from tandemlift.analysis.studies.tuning.result import EVIDENCE_FILE
+from tandemlift.analysis.studies.tuning.task import Task
 from tandemlift.apps.cli.main import cli
 from tandemlift.core.errors import InputError
 from tandemlift.parts.interaction.policy import PolicyTable
@@ -186,6 +191,55 @@ def test_ctrl_c_keeps_the_best_so_far_and_writes_it_as_unfinished(tmp_path):
     path = found.save(tmp_path)
     assert "unfinished" in path.read_text("utf-8")
     assert json.loads((tmp_path / EVIDENCE_FILE).read_text("utf-8"))["finished"] is False
+
+
+def test_a_search_that_was_stopped_goes_on_in_its_folder_with_the_bits_of_one_that_was_not(tmp_path, monkeypatch):
+    def interrupt(tried, budget, lowest):
+        if tried >= 24:
+            raise KeyboardInterrupt
+
+    flown, fly = [], Task.fly_while_hopeful
+    monkeypatch.setattr(Task, "fly_while_hopeful", lambda task, c, d: (flown.extend(c), fly(task, c, d))[1])
+    whole = quick(budget=48).as_table()
+    assert len(flown) == 48
+    assert not quick(budget=48, folder=tmp_path, progress=interrupt).is_finished
+    assert len(flown) == 48 + 24
+    assert quick(budget=48, folder=tmp_path).as_table() == whole
+    assert len(flown) == 48 + 48, "the 24 that had flown are not flown again"
+    quick(budget=48, folder=tmp_path, seed=1)  # another search
+    assert len(flown) == 48 + 48 + 48
+    (tmp_path / EVIDENCE_FILE).write_text("[" * 9000)  # broken
+    quick(budget=48, folder=tmp_path)
+    assert len(flown) == 48 + 48 + 48 + 48
+
+
+def test_what_a_search_had_found_is_on_disk_when_it_is_killed(tmp_path):
+    """By SIGKILL, which no program can handle."""
+    mission = tmp_path / "short.toml"
+    sizes = "\n".join(f"{key} = {value}" for key, value in QUICK.items())
+    mission.write_text(f'extends = "hover"\n{sizes}\n')
+    words = ["--minimize", "position_rmse_m.2", "--parameter", "controller.gains.xi.2", "--draws", "2"]
+    out = ["--out", str(tmp_path / "out"), "--holdout", "6"]
+    run = [sys.executable, "-m", "tandemlift", "tune", str(mission), *words, *out]
+    with subprocess.Popen([*run, "--budget", "100000"], stderr=subprocess.DEVNULL) as process:
+        try:
+            while process.poll() is None and not (tmp_path / "out" / "tuned.toml").exists():
+                time.sleep(0.05)
+        finally:
+            process.kill()
+    assert process.returncode == -signal.SIGKILL
+    evidence = json.loads((tmp_path / "out" / EVIDENCE_FILE).read_text("utf-8"))
+    tried, history = evidence["search"]["tried"], evidence["search"]["history"]
+    assert (evidence["finished"], evidence["ended"]) == (False, "interrupted")
+    assert len(tried) == len(history) >= 9
+    best = min(range(len(history)), key=lambda i: Cost(*history[i]).rank)
+    loaded = tl.load_mission(tmp_path / "out" / "tuned.toml")
+    assert loaded.controller.gains.xi[2] == tried[best][0]
+    done = subprocess.run([*run, "--budget", str(len(tried) - 1 + 8)], capture_output=True, text=True)
+    assert done.returncode in (0, 1), done.stderr
+    after = json.loads((tmp_path / "out" / EVIDENCE_FILE).read_text("utf-8"))
+    assert after["search"]["tried"][: len(tried)] == tried
+    assert after["finished"]
 
 
 def test_cases_with_targets_are_measured_against_them(tmp_path):

@@ -1,6 +1,8 @@
 """The challenge: flights by hand through a corridor, handed in, flown again and ranked."""
 
 import json
+import os
+import re
 import shutil
 import zipfile
 
@@ -131,6 +133,61 @@ def test_a_zip_with_another_score_a_copy_another_mission_and_other_files_are_tol
     assert "score.json says" in oscar
     assert "notes.txt: is no saved flight" in notes
     assert "flew another corridor than that of zigzag" in run(place)[1]
+
+
+def _link(path, target):
+    path.unlink()
+    path.symlink_to(target)
+
+
+ATTACKS = {  # of a participant: how it is made of a good flight, and words of its refusal
+    "nested": (lambda place: (place / "score.json").write_text("[" * 200_000), "at most 10,000 bytes"),
+    "deep": (lambda place: (place / "score.json").write_text("[" * 9_000), "score.json is no score"),
+    "large": (lambda place: (place / "score.json").write_bytes(b" " * 64_000_000), "at most 10,000 bytes"),
+    "digits": (lambda place: (place / "score.json").write_text('{"score": 1' + "0" * 400 + "}"), "is no score"),
+    "nan": (lambda place: (place / "score.json").write_text('{"score": NaN}'), "score.json is no score"),
+    "bytes": (lambda place: (place / "score.json").write_bytes(b"\xff\xfe"), "score.json is no score"),
+    "folder": (lambda place: [(place / "score.json").unlink(), (place / "score.json").mkdir()], "score.json must be"),
+    "device": (lambda place: _link(place / "score.json", "/dev/zero"), "score.json must be a file"),
+    "pipe": (lambda place: [(place / "score.json").unlink(), os.mkfifo(place / "score.json")], "score.json must be"),
+    "hand": (lambda place: _link(place / "hand.npz", "/dev/zero"), "hand.npz must be a file"),
+    "elsewhere": (
+        lambda place: _edit(place / "recorded.toml", 'recording = "hand.npz"', 'recording = "/dev/zero"'),
+        "has no recording of a hand",
+    ),
+    "long": (
+        lambda place: _edit(place / "recorded.toml", r"(?s)(\[mission\].*?\nduration = )\S+", r"\g<1>1e4"),
+        "at most 3600 s",
+    ),
+    "toml": (lambda place: (place / "recorded.toml").write_text("x = " + "[" * 200_000), "cannot be read"),
+    "text": (lambda place: (place / "recorded.toml").write_bytes(b"\xff"), "cannot be read"),
+}
+
+
+def _edit(path, old, new):
+    text, count = re.subn(old, new, path.read_text())
+    assert count == 1
+    path.write_text(text)
+
+
+def test_whatever_a_participant_hands_in_is_named_and_the_others_are_ranked(handed_in, tmp_path):
+    place, good = tmp_path / "in", handed_in / "in" / "anna"
+    for name, (attack, _) in ATTACKS.items():
+        shutil.copytree(good, place / name)
+        attack(place / name)
+    with zipfile.ZipFile(place / "bomb.zip", "w", zipfile.ZIP_DEFLATED) as archive:  # 64 MB in 64 kB
+        for file in ("recorded.toml", "hand.npz"):
+            archive.write(good / file, file)
+        archive.writestr("score.json", b"0" * 64_000_000)
+    (place / "broken.zip").write_bytes((place / "bomb.zip").read_bytes()[:-40])
+    shutil.copytree(good, place / "zoe")
+    code, said, error = run(place, "--mission", handed_in / "class.toml")
+    assert (code, error) == (3, "3")
+    rows = {line.split()[1]: line for line in said.splitlines()[1:]}
+    assert rows.keys() == {*ATTACKS, "bomb", "broken", "zoe"}
+    assert rows["zoe"].split()[0] == "1"
+    for name, (_, reason) in {**ATTACKS, "bomb": (None, "at most 10,000 bytes"), "broken": (None, "")}.items():
+        assert re.search(f"refused: .*{reason}", rows[name]), rows[name]
 
 
 def test_a_folder_without_flights_and_a_mission_without_a_corridor_are_refused(tmp_path):

@@ -77,6 +77,15 @@ def false_hands(case: str) -> Column:
 
 
 TRACKED, NOMINAL = "position_rmse_after_10s_m", "nominal"
+MISSED = 0.5  # of the push: an estimate that misses more has no delay; by least squares, none at all would have 0 ms
+
+
+def delay(row: Row) -> float | None:
+    """The delay of an estimate [ms] in the nominal flight."""
+    error, push = (math.hypot(*row.get(f"push_force_{x}_n") or (0.0,)) for x in ("rmse", "rms"))
+    return None if error > MISSED * push else metric("push_delay_s", None, 1e3, NOMINAL)(row)
+
+
 TABLES: dict[Kind, tuple[Column, ...]] = {
     "controllers": (
         *_axes("RMSE {} (mm)", "x y z", "tracking", TRACKED, 1e3),
@@ -91,7 +100,7 @@ TABLES: dict[Kind, tuple[Column, ...]] = {
         Column("lost (%)", "pushes", lambda row: 100.0 * has_failed(row)),
         *_axes("F {} (N)", "x y z", "pushes", "push_force_rmse_n", 1.0),
         *_axes("M {} (N m)", "roll pitch yaw", "pushes", "push_moment_rmse_n_m", 1.0),
-        Column("delay (ms)", "pushes", metric("push_delay_s", None, 1e3, NOMINAL)),
+        Column("delay (ms)", "pushes", delay),
         Column("smallest push (N)", "steps", metric("smallest_push_n"), max),
         *map(false_hands, (NOMINAL, "mass +20 %", "wind of 1 m/s", "wind of 2 m/s")),
     ),
@@ -106,17 +115,32 @@ TABLES: dict[Kind, tuple[Column, ...]] = {
 """The columns, in the order of the tables."""
 
 
-def lines_of(kind: Kind, rows: Mapping[str, Scores]) -> list[str]:
-    """A table as Markdown."""
+WIDE, LONGEST = 80, 24  # of a terminal and of a name, in characters
+
+
+def lines_of(kind: Kind, rows: Mapping[str, Scores], own: str = "") -> list[str]:
+    """Tables as Markdown that fit a terminal: a column for each row of the scores; that of `own` is in every table."""
+
+    def column(name: str) -> list[str]:
+        head, numbers = name if len(name) <= LONGEST else f"{name[: LONGEST - 1]}…", [rows[name].get(t) for t in titles]
+        shown = ("–" if x is None else f"{x:,.0f}" if abs(x) >= 1e3 else f"{x:.4g}" for x in numbers)
+        return _wide([head, ":", *shown], str.rjust)
+
     titles = [column.title for column in TABLES[kind]]
-    cells = [[name, *("" if row.get(t) is None else f"{row[t]:.4g}" for t in titles)] for name, row in rows.items()]
-    columns = list(zip([kind, *titles], *cells, strict=True))
-    sizes = [max(map(len, column)) for column in columns]
-    body = [
-        " | ".join([row[0].ljust(sizes[0]), *map(str.rjust, row[1:], sizes[1:])]) for row in zip(*columns, strict=True)
-    ]
-    rule = "|".join(["-" * (sizes[0] + 2), *("-" * (size + 1) + ":" for size in sizes[1:])])
-    return [f"| {body[0]} |", f"|{rule}|", *(f"| {line} |" for line in body[1:])]
+    first = [_wide([kind, "", *titles], str.ljust), *([column(own)] if own else [])]
+    tables = [first]
+    for table_column in (column(name) for name in rows if name != own):
+        if sum(len(c[0]) + 3 for c in (*tables[-1], table_column)) >= WIDE:
+            tables.append(first)
+        tables[-1] = [*tables[-1], table_column]
+    lines = [[f"| {' | '.join(row)} |" for row in zip(*table, strict=True)] for table in tables]
+    return [line for table in lines for line in (*table, "")][:-1]
+
+
+def _wide(texts: list[str], align: Callable[[str, int], str]) -> list[str]:
+    """Texts of one width; the second, of the rule below the head, is filled with dashes."""
+    size = max(map(len, texts))
+    return [align(text, size) if i != 1 else "-" * (size - len(text)) + text for i, text in enumerate(texts)]
 
 
 def json_of(tables: Mapping[Kind, Mapping[str, Scores]]) -> str:

@@ -8,7 +8,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Literal, NamedTuple, get_args
 
+import numpy as np
+
 from tandemlift.core.errors import InputError
+from tandemlift.core.types import Array
 from tandemlift.missions import Mission
 from tandemlift.parts.controllers import CONTROLLERS
 from tandemlift.parts.controllers.user_controller import file_text, run_file
@@ -23,6 +26,11 @@ WHAT = (
     "an entry is a .py file that registers one controller, or defines `observer`, or a .toml file with the weights of "
     "a policy, such as tuned.toml of `tandemlift train`"
 )
+
+
+def nothing(table: Any) -> Array:
+    """An observer, as a function of a table, that says nothing."""
+    return np.zeros((len(table), 6))
 
 
 class BenchmarkEntry(NamedTuple):
@@ -53,7 +61,8 @@ def baselines(kind: Kind) -> list[BenchmarkEntry]:
         own = [name for name, c in sorted(CONTROLLERS.items()) if c.start.__module__.startswith("tandemlift.")]
         return [BenchmarkEntry(kind, name, {}, name) for name in own]
     if kind == "observers":
-        return [BenchmarkEntry(kind, name, {WRENCH: name}) for name in get_args(_annotation("estimator", "wrench"))]
+        found = [BenchmarkEntry(kind, name, {WRENCH: name}) for name in get_args(_annotation("estimator", "wrench"))]
+        return [*found, BenchmarkEntry(kind, "zero", {WRENCH: RECORDED}, function=nothing)]
     return [
         BenchmarkEntry(kind, "damping of 1.6 N s/m", {f"{POLICY}.model": "none"}),
         BenchmarkEntry(kind, "damping of 1.0 N s/m", {f"{POLICY}.model": "none", "admittance.damping": 1.0}),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 from collections.abc import Iterable
@@ -13,7 +14,7 @@ from tandemlift.analysis.studies.tuning.draws import Draw
 from tandemlift.analysis.studies.tuning.holdout import Evidence, as_table
 from tandemlift.analysis.studies.tuning.task import Task, Values
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import write_file
+from tandemlift.core.files import versions, write_file
 from tandemlift.missions import Mission, built_in, format_toml, tables_of
 from tandemlift.missions.changes import MISSING, Place, Tables, value_at
 
@@ -33,6 +34,7 @@ class Tuning(NamedTuple):
         new: the best values found.
         costs: of old and new, on the draws for the choice among the best; of an interrupted search, on its own draws.
         history: the cost of every candidate in the order of the search, the present values first.
+        tried: the values of every candidate in that order.
         records: the candidates that were better than all before them, with their numbers in the history.
         ended: the reason for the end of the search.
         is_finished: whether it was not interrupted.
@@ -48,6 +50,7 @@ class Tuning(NamedTuple):
     new: Values
     costs: tuple[Cost, Cost]
     history: tuple[Cost, ...]
+    tried: tuple[Values, ...]
     records: tuple[tuple[int, Values], ...]
     ended: str
     is_finished: bool
@@ -102,6 +105,24 @@ class Tuning(NamedTuple):
             f"# {self.name}, tuned for {', '.join(g.name for g in self.task.goals)}{unfinished}\n{format_toml(tables)}"
         )
 
+    @property
+    def identity(self) -> str:
+        """A digest of all that decides which candidates are tried and what they cost, but for the budget."""
+        task, p = self.task, self.task.parameters
+        goals = [(goal, scale.tolist()) for goal, scale in zip(task.goals, task.scales, strict=True)]
+        said = (tables_of(task.source.mission), p, goals, task.aim, task.strict, self.seed, self.draws)
+        return hashlib.sha256(repr((said, sorted(versions("compiled").items()))).encode()).hexdigest()[:16]
+
+    def tried_before(self, folder: str | os.PathLike[str]) -> list[tuple[Values, Cost]]:
+        """The candidates of this search that a folder holds, as it was stopped; none of another search."""
+        try:
+            found = json.loads((Path(folder) / EVIDENCE_FILE).read_text("utf-8"))["search"]
+            before = [(tuple(v), Cost(*c)) for v, c in zip(found["tried"], found["history"], strict=True)]
+        except (OSError, ValueError, LookupError, TypeError, RecursionError):
+            return []
+        now = list(zip(self.tried, self.history, strict=True))
+        return before if found["identity"] == self.identity and before[: len(now)] == now else []
+
     def as_table(self) -> dict[str, Any]:
         """The result as JSON: task, optimiser, values, history, evidence."""
         task = self.task
@@ -133,7 +154,9 @@ class Tuning(NamedTuple):
             "choice": {"old": self.costs[0]._asdict(), "new": self.costs[1]._asdict()},
             "search": {
                 "draws": [draw._asdict() for draw in self.draws],
+                "identity": self.identity,
                 "history": [[cost.bad, cost.ratio] for cost in self.history],
+                "tried": [list(values) for values in self.tried],
                 "records": [[number, *values] for number, values in self.records],
             },
             "evidence": None if self.evidence is None else as_table(self.evidence, self.holdout, task.goals),

@@ -31,6 +31,10 @@ class TuningSearch:
         budget: most candidates to try.
         present: the present values, and their results.
         progress: called after each population.
+        keep: called after each population that has flown.
+
+    Attributes:
+        known: candidates of this search that have flown before, the present values first: they are not flown again.
     """
 
     def __init__(
@@ -40,8 +44,10 @@ class TuningSearch:
         budget: int,
         present: tuple[Values, Trial],
         progress: TuneProgress | None = None,
+        keep: Callable[[], object] | None = None,
     ) -> None:
-        self.task, self.draws, self.budget, self.progress = task, draws, budget, progress
+        self.task, self.draws, self.budget, self.progress, self.keep = task, draws, budget, progress, keep
+        self.known: Sequence[CandidateResult] = ()
         values, trial = present
         self.tried = [CandidateResult(values, task.cost(trial))]
         self.best = self.tried[0]
@@ -76,11 +82,16 @@ class TuningSearch:
     def _try_population(self, optimiser: EvolutionStrategy) -> None:
         task, points = self.task, optimiser.ask()
         values = [task.as_flown(point) for point in points]
-        trials = task.fly_while_hopeful([task.changes(v) for v in values], self.draws)
-        tried = [CandidateResult(v, task.cost(trial)) for v, trial in zip(values, trials, strict=True)]
+        tried = list(self.known[len(self.tried) : len(self.tried) + len(values)])
+        flies = [one.values for one in tried] != values
+        if flies:
+            trials = task.fly_while_hopeful([task.changes(v) for v in values], self.draws)
+            tried = [CandidateResult(v, task.cost(trial)) for v, trial in zip(values, trials, strict=True)]
         optimiser.tell(points, [one.cost.rank for one in tried])
         self.tried += tried
         self.best = min([self.best, *tried], key=lambda t: t.cost.rank)
+        if flies and self.keep:
+            self.keep()
         if self.progress:
             self.progress(len(self.tried) - 1, self.budget, self.best.cost)
 

@@ -25,6 +25,7 @@ from tandemlift.analysis.studies.tuning.result import Tuning, present_values
 from tandemlift.analysis.studies.tuning.search import (
     INTERRUPTED,
     TIMES,
+    CandidateResult,
     TuneProgress,
     TuningSearch,
     choose,
@@ -51,6 +52,7 @@ class How(NamedTuple):
     seed: int = 0
     threads: int | None = None
     strict: bool = False
+    folder: str | os.PathLike[str] | None = None
 
 
 def tune(
@@ -87,6 +89,8 @@ def tune(
             seed: of search and draws; 0.
             threads: that fly; by default one for each processor.
             strict: whether a flight with findings counts as a bad outcome.
+            folder: where mission and evidence so far are written after each population, as by `Tuning.save`. The same
+            search goes on there where it was stopped, with the same result.
 
     Returns:
         The result, whether it is better or not.
@@ -120,7 +124,7 @@ def train(
         hidden: number of hidden units of a new network.
         persons: number of persons in the search.
         progress: as of `tune`.
-        how: holdout, budget, seed, threads and strict, as of `tune`.
+        how: holdout, budget, seed, threads, strict and folder, as of `tune`.
 
     Returns:
         The result, whether it is better or not.
@@ -128,7 +132,7 @@ def train(
     Raises:
         InputError: bad input, the package is missing, or the mission has no person.
     """
-    if strange := set(how) - (allowed := {"holdout", "budget", "seed", "threads", "strict"}):
+    if strange := set(how) - (allowed := {"holdout", "budget", "seed", "threads", "strict", "folder"}):
         raise unknown("argument of train", min(strange), sorted(allowed))
     _check_count("--persons", persons)
     source = MissionSource(os.fspath(mission), dict(changes or {}))
@@ -162,30 +166,38 @@ def _tuned(source: MissionSource, goals: tuple[Goal, ...], how: How, progress: T
     if budget != 0 and budget < optimiser.size:
         raise InputError(f"--budget {budget}: must be at least {optimiser.size}, which are tried at a time, or 0")
     search = TuningSearch(task, compared, budget, (present_values(task), trial), progress)
+
+    def so_far() -> Tuning:
+        return Tuning(
+            task=task,
+            seed=how.seed,
+            budget=budget,
+            draws=tuple(compared),
+            holdout=tuple(unseen),
+            old=search.tried[0].values,
+            new=search.best.values,
+            costs=(search.tried[0].cost, search.best.cost),
+            history=tuple(t.cost for t in search.tried),
+            tried=tuple(t.values for t in search.tried),
+            records=search.records,
+            ended=search.ended or INTERRUPTED,
+            is_finished=False,
+        )
+
+    if (folder := how.folder) is not None:
+        search.keep = lambda: so_far().save(folder)
+        search.known = [CandidateResult(*one) for one in so_far().tried_before(folder)]
     with progress_or_own("Tuning", None, "candidates") as shown:
         if shown and not progress:
             search.progress = lambda tried, most, cost: shown(tried, most)
         search.run(optimiser)
-    new, costs = search.best.values, (search.tried[0].cost, search.best.cost)
-    if budget and search.ended != INTERRUPTED:
+    found = so_far()._replace(is_finished=search.ended != INTERRUPTED)
+    if budget and found.is_finished:
         try:
             new, costs = choose(search, optimiser, drawn.other_draws(TIMES * len(compared), CHOICE_SEED))
         except KeyboardInterrupt:
-            search.ended = INTERRUPTED
-    found = Tuning(
-        task=task,
-        seed=how.seed,
-        budget=budget,
-        draws=tuple(compared),
-        holdout=tuple(unseen),
-        old=search.tried[0].values,
-        new=new,
-        costs=costs,
-        history=tuple(t.cost for t in search.tried),
-        records=search.records,
-        ended=search.ended,
-        is_finished=search.ended != INTERRUPTED,
-    )
+            return found._replace(ended=INTERRUPTED, is_finished=False)
+        found = found._replace(new=new, costs=costs)
     return _with_evidence(found) if found.is_finished else found
 
 

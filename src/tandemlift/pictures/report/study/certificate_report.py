@@ -7,12 +7,13 @@ import math
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from tandemlift.analysis.certification.certificate import Certificate
+from tandemlift.analysis.certification.certificate import TIERS, Certificate
 from tandemlift.analysis.certification.flown import with_limits
 from tandemlift.analysis.certification.linear import linear_tier
 from tandemlift.analysis.certification.person import ArmBox, person_tier
@@ -26,7 +27,7 @@ from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Progress
 from tandemlift.missions import MissionLike, format_toml, mission_of, tables_of
 from tandemlift.pictures.drawing.style import save
-from tandemlift.pictures.report.page import shown_figures, write_page
+from tandemlift.pictures.report.page import Verdict, shown_figures, write_page
 from tandemlift.pictures.report.paper_report import check_typesetting, typeset
 from tandemlift.pictures.report.study.certificate_figures import certificate_captions, certificate_figures
 from tandemlift.pictures.report.study.words import command
@@ -34,7 +35,6 @@ from tandemlift.pictures.report.study.words import command
 PAGE, JSON, PDF, SOURCE = "certificate.html", "certificate.json", "certificate.pdf", "report.typ"
 MISSION = "mission.toml"
 NONE, MINUS = "none", "−"
-TIERS = ("linear", "structured", "person", "nonlinear", "statistics")
 PACKAGES = ("numpy", "scipy", "slycot", "cvxpy")
 
 
@@ -62,7 +62,8 @@ def certify(
         progress: called with (tiers done, tiers in all).
 
     Returns:
-        The certificate; a tier that cannot be formed for this mission has the reason.
+        The certificate; a tier that cannot be formed for this mission has the reason. Ctrl-C after a tier ends it with
+        the tiers so far, `stopped`.
 
     Raises:
         InputError: the mission cannot be loaded, a tier is unknown, a box is empty or too large, or an optional package
@@ -72,7 +73,7 @@ def certify(
     for name in tiers:
         if name not in TIERS:
             raise unknown("tier", name, TIERS)
-    chosen, found = [name for name in TIERS if name in tiers], list[Tier]()
+    chosen = [name for name in TIERS if name in tiers]
     arms = ArmBox() if arm is None else ArmBox(*arm).checked()
     with extra("certify", "a certificate"):
         from threadpoolctl import threadpool_limits
@@ -90,13 +91,27 @@ def certify(
             "nonlinear": lambda: nonlinear_tier(mission, fly=fly),
             "statistics": lambda: statistics_tier(mission, study, flights),
         }
-        for done, name in enumerate(chosen):
-            if shown:
-                shown(done, len(chosen))
-            found.append(with_limits(forms[name](), mission, fly))
-        if shown:
-            shown(len(chosen), len(chosen))
-    return Certificate(mission.mission.name, tuple(found), _versions(), tables_of(mission))
+        found = _formed([forms[name] for name in chosen], lambda tier: with_limits(tier, mission, fly), shown)
+    day, stopped = f"{datetime.now(UTC):%Y-%m-%d}", len(found) < len(chosen)
+    return Certificate(mission.mission.name, tuple(found), _versions(), tables_of(mission), fly, day, stopped)
+
+
+def _formed(
+    forms: Sequence[Callable[[], Tier]], finish: Callable[[Tier], Tier], progress: Progress | None
+) -> list[Tier]:
+    """The tiers that are formed before Ctrl-C, if there is one."""
+    found = list[Tier]()
+    try:
+        for form in forms:
+            if progress:
+                progress(len(found), len(forms))
+            found.append(finish(form()))
+        if progress:
+            progress(len(forms), len(forms))
+    except KeyboardInterrupt:
+        if not found:
+            raise
+    return found
 
 
 def _versions() -> dict[str, str]:
@@ -123,20 +138,19 @@ def write_certificate(certificate: Certificate, folder: Path) -> list[Path]:
     certificate = _placed(certificate, {f"tandemlift run {name}": command("run", folder / name) for name in files})
     certificate.save(folder / JSON)
     figures, captions = certificate_figures(certificate), certificate_captions(certificate)
-    tiers = [
-        {"title": t.title, "assumptions": t.assumptions, "reason": t.reason, "rows": [_row(c) for c in t.claims]}
-        for t in certificate.tiers
-    ]
-    verdict, versions = _verdict(certificate), ", ".join(f"{n} {v}" for n, v in certificate.versions.items())
+    tiers = [_shown_tier(tier) for tier in certificate.tiers]
+    versions = ", ".join(f"{n} {v}" for n, v in certificate.versions.items())
+    about, flown = [certificate.scope, _identity(certificate)], ["--fly"] * certificate.flown
+    names, (head, colon, rest) = ",".join(t.name for t in certificate.tiers), certificate.verdict.partition(":")
     page = write_page(
         folder / PAGE,
         "certificate",
         name=certificate.mission,
-        missed=[_name(claim) for claim in certificate.missed],
-        verdict=None,
+        about=" ".join(about),
+        verdict=Verdict(head, colon + rest, "missed" if certificate.missed or certificate.not_formed else ""),
         tiers=tiers,
         mission=mission,
-        repeat=command("certify", folder / MISSION, "--tiers", ",".join(t.name for t in certificate.tiers)),
+        repeat=command("certify", folder / MISSION, "--tiers", names, *flown),
         figures=shown_figures(figures, captions),
         versions=f"Computed with {versions}.",
     )
@@ -146,7 +160,8 @@ def write_certificate(certificate: Certificate, folder: Path) -> list[Path]:
     except InputError:
         return written
     shown = [{"file": f"{n}.pdf", "title": captions[n].title, "text": captions[n].text} for n in figures]
-    data = {"mission": certificate.mission, "verdict": verdict, "tiers": tiers, "figures": shown, "versions": versions}
+    data = {"mission": certificate.mission, "about": about, "verdict": certificate.verdict, "tiers": tiers}
+    data |= {"figures": shown, "versions": versions}
     with TemporaryDirectory() as aside:
         parts = Path(aside)
         for name, figure in figures.items():
@@ -171,13 +186,17 @@ def _write(path: Path, text: str) -> None:
         partial.write_text(text, "utf-8")
 
 
-def _verdict(certificate: Certificate) -> str:
-    missed = [_name(claim) for claim in certificate.missed]
-    return f"Below the bar: {'; '.join(missed)}." if missed else "No number is below its bar."
+def _identity(certificate: Certificate) -> str:
+    by = f"tandemlift {certificate.versions.get('tandemlift', '')}"
+    return f"Mission {certificate.mission}, SHA-256 {certificate.mission_sha256[:16]}…; {by}; {certificate.made}."
 
 
-def _name(claim: Claim) -> str:
-    return f"{claim.quantity}, {claim.subject}" if claim.subject else claim.quantity
+def _shown_tier(tier: Tier) -> dict[str, Any]:
+    """A tier as texts; columns without a text are left out."""
+    rows = [_row(claim) for claim in tier.claims]
+    columns = [name for name in ("bar", "flown") if any(row[name] for row in rows)]
+    about = {"title": tier.title, "assumptions": tier.assumptions, "reason": tier.reason}
+    return {**about, "rows": rows, "columns": columns}
 
 
 def _row(claim: Claim) -> dict[str, Any]:
@@ -188,8 +207,8 @@ def _row(claim: Claim) -> dict[str, Any]:
         flown = f"{shown(scale * claim.flown.above)} ({claim.flown.ended})" if claim.flown.ended else "not reached"
     bar = "" if claim.bar is None else shown(claim.bar)
     return {
-        "name": _name(claim),
-        "value": shown(claim.value),
+        "name": claim.name,
+        "value": f"≥ {shown(claim.tried)}" if claim.is_least else shown(claim.value),
         "unit": "" if claim.unit == "1" else claim.unit,
         "bar": bar,
         "verdict": claim.verdict,
@@ -207,23 +226,18 @@ def shown(value: float | None) -> str:
 
 
 def certificate_lines(certificate: Certificate) -> Iterator[str]:
-    """A certificate in words: its tiers, their assumptions and their numbers."""
+    """A certificate in words: what it covers and its verdict, then its tiers, their assumptions and their numbers."""
+    yield from (certificate.scope, certificate.verdict, _identity(certificate))
     for tier in certificate.tiers:
         yield tier.title
         yield from (f"  assumed: {text}" for text in tier.assumptions)
         if tier.reason:
             yield f"  not formed: {tier.reason}"
-        rows = [_row(claim) for claim in tier.claims]
-        wide = max((len(row["name"]) for row in rows), default=0)
-        for row in rows:
-            beside = " ".join(
-                text
-                for text in (
-                    f"bar {row['bar']}" if row["bar"] else "",
-                    row["verdict"],
-                    row["flown"] and f"flown {row['flown']}",
-                )
-                if text
-            )
-            yield f"  {row['name']:{wide}}  {row['value']:>8} {row['unit']:4} {beside:24} {row['text']}".rstrip()
-    yield _verdict(certificate)
+        rows = []
+        for row in map(_row, tier.claims):
+            said = (row["bar"] and f"bar {row['bar']}", row["verdict"], row["flown"] and f"flown {row['flown']}")
+            rows.append((row["name"], f"{row['value']:>8} {row['unit']:4}", " ".join(filter(None, said)), row["text"]))
+        wide, _, beside, _ = [max(map(len, column)) for column in zip(*rows, strict=True)] if rows else (0, 0, 0, 0)
+        for name, value, words, text in rows:
+            yield f"  {name:{wide}}  {value} {words:{beside}}{' ' * bool(beside)}{text}".rstrip()
+    yield f"{certificate.scope} {certificate.verdict}"
