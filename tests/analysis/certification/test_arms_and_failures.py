@@ -69,7 +69,7 @@ def test_the_stiffest_arm_of_the_person_and_its_oscillation_are_those_of_the_roo
 
 
 def test_the_heaviest_hand_without_a_spring_is_that_of_the_roots():
-    """With k = 0 one root is 0, the place of the hand, which nothing holds; with little damping no mass is too large."""
+    """With k = 0 one root is 0, the place of the hand, which nothing holds; little damping bears any mass."""
     person = load_mission("hover").person
     for damping in (person.damping, 12.0):
         heavy = edge(lambda m, b=damping: np.roots(np.polyadd(LATE, [m, b])).real.max() < 0.0, 0.0, 2e5)
