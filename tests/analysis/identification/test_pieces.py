@@ -404,6 +404,30 @@ def test_white_residuals_are_white_and_correlated_ones_count_by_the_factor_of_th
     assert whiteness(r).autocorrelation[2] == pytest.approx(0.216, abs=0.03)
 
 
+def test_a_second_lag_that_swings_back_ends_the_count_only_where_it_outweighs_the_first():
+    """MA(2) with ρ₁ = 0.37 and ρ₂ = −0.11: a mean's variance grows by 1 + 2 (ρ₁ + ρ₂)."""
+    e = RNG.normal(size=(80, 602, 3))
+    r = e[:, 2:] + 0.6 * e[:, 1:-1] - 0.15 * e[:, :-2]
+    size = 1.0 + 0.6**2 + 0.15**2
+    assert whiteness(r).factor == pytest.approx(1.0 + 2.0 * (0.6 - 0.6 * 0.15 - 0.15) / size, abs=0.1)
+
+
+def test_the_turns_of_joints_act_behind_the_vehicle_and_the_point():
+    """Of a load along x, its sensor turned about z by φ shows −φ x along y."""
+    base = {JOINTS[0]: np.zeros((2, 4, 6))}
+    base[JOINTS[0]][..., 0], base[JOINTS[0]][..., 4] = 3.0, 5.0
+    d = PredictedDerivatives(base, {JOINTS[0]: np.zeros((2, STARTS + 2 + 3, 4, 6))})
+    priors = SensorPriors({}, {MOTION[0]: 0}, np.array([3e-3]), np.array([3e-5]), 2)
+    J = Linearisation._columns(SimpleNamespace(priors=priors), d, JOINTS[0], slice(0, 0), np.zeros((2, 3)))
+    assert J.shape == (2, STARTS + 1 + 2 + 3 + 6, 3, 6)
+    turns = J[0, STARTS + 1 + 2 + 3 :, 0]
+    expected = np.zeros((6, 6))
+    expected[2, 1], expected[1, 2] = -3.0, 3.0  # first joint, along x: about z shows along y, about y along z
+    expected[3, 5], expected[5, 3] = -5.0, 5.0  # second, along y: about x along z, about z along x
+    assert turns == pytest.approx(expected)
+    assert not J[:, : STARTS + 1 + 2 + 3].any()
+
+
 def walking_search(W=4, P=2, blocks=5):
     """A search of two coordinates and a bias that walks, with what its equations say."""
     priors = SensorPriors(
