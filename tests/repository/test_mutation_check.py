@@ -71,7 +71,8 @@ def test_300_mistakes_are_drawn_in_flights_and_200_beside_each_can_be_compiled_a
 
 def test_who_flies_a_compiled_loop_has_called_the_laws_that_were_traced_for_it(tmp_path):
     """Also where the code comes from memory or disk: in a process of its own, as its plugin follows every call."""
-    test = "def test_it():\n    import tandemlift as t\n    t.fly(t.load_mission('one-push', {'mission.duration': 0.01}))\n"
+    brief = "{'mission.duration': 0.01}"
+    test = f"def test_it():\n    import tandemlift as tl\n    tl.fly(tl.load_mission('one-push', {brief}))\n"
     (tmp_path / "test_a.py").write_text(test + test.replace("test_it", "test_again"), "utf-8")
     (tmp_path / "traced").mkdir()
     run = (
