@@ -2,7 +2,6 @@
 
 import ctypes
 import re
-from functools import cache
 from xml.etree import ElementTree
 
 import numpy as np
@@ -30,15 +29,21 @@ INPUTS = {
 }
 
 
-@cache
-def part(name):
+@pytest.fixture(scope="module")
+def parts():
+    """The three FMUs of a mission, not compiled."""
     mission = portable_mission(tl.load_mission("hover"))
-    return pilot_part(mission) if name == "pilot" else flight_part(mission, name)
+    return {name: pilot_part(mission) if name == "pilot" else flight_part(mission, name) for name in PARTS}
 
 
-@cache
-def described(name, fmi):
-    return ElementTree.fromstring(model_description(part(name), fmi, "{token}"))
+@pytest.fixture(scope="module")
+def described(parts):
+    """Their descriptions by name and version."""
+    return {
+        (name, fmi): ElementTree.fromstring(model_description(part, fmi, "{token}"))
+        for name, part in parts.items()
+        for fmi in (2, 3)
+    }
 
 
 def numbers(variables):
@@ -46,8 +51,8 @@ def numbers(variables):
 
 
 @pytest.mark.parametrize("name", PARTS)
-def test_each_number_of_an_fmu_has_one_place_inputs_behind_parameters_and_outputs_behind_inputs(name):
-    by = {kind: [v for v in part(name).variables if v.causality == kind] for kind in ("parameter", "input", "output")}
+def test_each_number_of_an_fmu_has_one_place_inputs_behind_parameters_and_outputs_behind_inputs(name, parts):
+    by = {kind: [v for v in parts[name].variables if v.causality == kind] for kind in ("parameter", "input", "output")}
     places = {kind: numbers(variables) for kind, variables in by.items()}
     whole = [place for kind in by for place in places[kind]]
     assert len(set(whole)) == len(whole)
@@ -55,16 +60,16 @@ def test_each_number_of_an_fmu_has_one_place_inputs_behind_parameters_and_output
     assert max(places["input"]) < min(places["output"])
     ends = sorted(places["output"])
     assert ends == list(range(ends[0], ends[-1] + 1))
-    (text,) = (t for file, t in part(name).texts.items() if file.endswith("fmu_values.c"))
+    (text,) = (t for file, t in parts[name].texts.items() if file.endswith("fmu_values.c"))
     tables = re.findall(r"\{((?:\s*\d+,?)+)\s*\}", text)
     sizes = next(t for t in (list(map(int, re.findall(r"\d+", one))) for one in tables) if len(t) > 100)
     assert len(sizes) == max(whole) + 1
-    assert {i: size for i, size in enumerate(sizes) if size} == {v.at: len(v.labels) for v in part(name).variables}
+    assert {i: size for i, size in enumerate(sizes) if size} == {v.at: len(v.labels) for v in parts[name].variables}
 
 
 @pytest.mark.parametrize("name", PARTS)
-def test_inputs_are_those_of_a_step_and_begin_at_rest_with_the_pilot_enabled(name):
-    found = {v.name: v for v in part(name).variables if v.causality == "input"}
+def test_inputs_are_those_of_a_step_and_begin_at_rest_with_the_pilot_enabled(name, parts, described):
+    found = {v.name: v for v in parts[name].variables if v.causality == "input"}
     assert list(found) == INPUTS[name]
     at_rest = {"attitude": (1.0, 0.0, 0.0, 0.0), "enabled": (1.0,)}
     for key, variable in found.items():
@@ -73,7 +78,7 @@ def test_inputs_are_those_of_a_step_and_begin_at_rest_with_the_pilot_enabled(nam
     truths = {key for key, variable in found.items() if variable.is_truth}
     assert truths == {*found} & {"land", "lift", "stop", "enabled", "thrusts_given", "desired_velocity_given"}
     for fmi in (2, 3):
-        start = {v.get("name"): v for v in described(name, fmi).find("ModelVariables")}
+        start = {v.get("name"): v for v in described[name, fmi].find("ModelVariables")}
         if "enabled" in found:
             own = start["enabled"] if fmi == 3 else start["enabled"].find("Boolean")
             assert own.get("start") == "true"
@@ -83,17 +88,17 @@ def test_inputs_are_those_of_a_step_and_begin_at_rest_with_the_pilot_enabled(nam
 
 
 @pytest.mark.parametrize("name", PARTS)
-def test_the_c_code_begins_with_the_numbers_of_the_description(name):
+def test_the_c_code_begins_with_the_numbers_of_the_description(name, parts):
     """Those of a quaternion, and of the pilot that follows, are not 0."""
-    starts = [x for v in part(name).variables if v.causality == "input" for x in v.start]
-    (text,) = (t for file, t in part(name).texts.items() if file.endswith("_fmu.c"))
+    starts = [x for v in parts[name].variables if v.causality == "input" for x in v.start]
+    (text,) = (t for file, t in parts[name].texts.items() if file.endswith("_fmu.c"))
     lists = re.findall(r"\{\s*((?:-?\d+\.\d+,?\s*)+)\}", text)
     assert starts in [[float(x) for x in re.findall(r"-?\d+\.\d+", one)][: len(starts)] for one in lists]
 
 
-def test_parameters_are_the_keys_that_act_in_a_part():
+def test_parameters_are_the_keys_that_act_in_a_part(parts):
     """The pilot has its own model of the vehicle and knows nothing of the real one; a vehicle has no pilot."""
-    keys = {name: {v.name for v in part(name).variables if v.causality == "parameter"} for name in PARTS}
+    keys = {name: {v.name for v in parts[name].variables if v.causality == "parameter"} for name in PARTS}
     assert "plant.mass_scale" in keys["flight"] & keys["vehicle"]
     assert "plant.mass_scale" not in keys["pilot"]
     assert "vehicle.payload.mass" in keys["flight"] & keys["vehicle"] & keys["pilot"]
@@ -101,14 +106,14 @@ def test_parameters_are_the_keys_that_act_in_a_part():
     assert not any(key.startswith(("controller.", "admittance.")) for key in keys["vehicle"])
     assert keys["vehicle"] < keys["flight"]
     for name in PARTS:
-        rows = [v for v in part(name).variables if v.causality == "parameter"]
+        rows = [v for v in parts[name].variables if v.causality == "parameter"]
         mission = tl.load_mission("hover")
         mass = next(v for v in rows if v.name == "vehicle.payload.mass")
         assert mass.start == (mission.vehicle.payload.mass,)
 
 
-def test_the_thrusts_of_a_pilot_are_one_for_each_rotor():
-    (thrusts,) = (v for v in part("pilot").variables if v.causality == "output")
+def test_the_thrusts_of_a_pilot_are_one_for_each_rotor(parts):
+    (thrusts,) = (v for v in parts["pilot"].variables if v.causality == "output")
     assert (thrusts.name, thrusts.is_array, len(thrusts.labels)) == ("thrusts", True, 8)
     assert len(set(thrusts.labels)) == 8
     assert (thrusts.channel.unit, thrusts.channel.width) == ("N", 1)
@@ -123,8 +128,8 @@ def test_a_number_of_each_quadrotor_has_its_quadrotors_name_also_of_one():
 
 @pytest.mark.parametrize("name", PARTS)
 @pytest.mark.parametrize("fmi", [2, 3])
-def test_a_description_is_that_of_its_version(name, fmi):
-    root, own = described(name, fmi), part(name)
+def test_a_description_is_that_of_its_version(name, fmi, parts, described):
+    root, own = described[name, fmi], parts[name]
     simulation, table = root.find("CoSimulation"), root.find("ModelVariables")
     assert (root.get("fmiVersion"), root.get("modelName")) == (f"{fmi}.0", own.identifier)
     assert root.get({2: "guid", 3: "instantiationToken"}[fmi]) == "{token}"
