@@ -70,8 +70,8 @@ def drawn(room: str, seed: int) -> list[Mutant]:
 
 @cache
 def content(path: Path) -> bytes:
-    """Of a file as it was when this run first looked, whatever is written meanwhile."""
-    return path.read_bytes()
+    """Of a file as it was when this run first looked, whatever is written meanwhile; nothing of one that is gone."""
+    return path.read_bytes() if path.exists() else b""
 
 
 @cache
