@@ -103,7 +103,7 @@ validate: .venv/dev  ## the pilot's performance beside its targets, printed; 5 m
 random-missions: .venv/dev  ## a thousand missions at random, each outcome confirmed by a judge; into docs/reference/validation.md
 	$(BIN)/python evidence/fly_random_missions.py --write
 
-mutation-check: .venv/dev  ## small mistakes in laws, loop, simulation and studies, one at a time: does a test notice each? For hours
+mutation-check: .venv/dev  ## small mistakes in the source, one at a time: does a test notice each? For hours
 	$(BIN)/python tools/mutation_check.py
 
 bench: .venv/dev ## speed of everything, printed

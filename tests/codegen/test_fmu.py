@@ -120,6 +120,43 @@ def test_a_vehicle_under_thrusts_and_pushes_has_the_bits_of_the_simulation(name,
     assert same(instance.number("rates", 3), sim.state[10:])
 
 
+@BOTH
+def test_a_flight_follows_a_desired_velocity_and_commanded_thrusts_once_they_are_said_to_count(fmi, fmu):
+    mission = unfused(tl.load_mission("hover"))
+    sim, instance, dt = tl.Simulation(mission), Instance(fmu("hover", "flight", fmi)), mission.mission.step
+    weight, velocity = 1.02 * flown("hover")["rotor_thrusts"][-1], (0.4, -0.3, 0.1)
+    assert instance.begin() == OK
+    instance.set("desired_velocity", velocity)
+    instance.set("thrusts", weight)
+    for k in range(900):
+        counts, commanded = 200 <= k < 600, k >= 700
+        if k in (200, 600, 700):
+            assert instance.truth("desired_velocity_given", counts) == instance.truth("thrusts_given", commanded) == OK
+        assert instance.step(k * dt, dt) == OK
+        sim.step(thrusts=weight if commanded else None, velocity=velocity if counts else None)
+        if k in (199, 599, 699, 899):
+            assert same(instance.number("position", 3), sim.state[:3]), k
+            assert same(instance.number("velocity", 3), sim.state[3:6]), k
+    assert not same(sim.state[3:6], np.zeros(3))
+
+
+@BOTH
+def test_a_pilot_begins_enabled_and_holds_its_place_once_it_is_not(fmi, fmu):
+    """Before anything is set, each input has the start of its description."""
+    instance, native = Instance(fmu("iris", "pilot", fmi)), tl.Pilot(unfused(tl.load_mission("iris")))
+    assert instance.truth("enabled") is True
+    assert [instance.truth(name) for name in ("land", "lift", "stop")] == [False] * 3
+    assert instance.begin() == OK
+    state = np.eye(16)[6]
+    state[13] = 3.0  # N: a push
+    for k in range(20):
+        if k == 10:
+            assert instance.truth("enabled", False) == OK
+        instance.set("push_force", state[13:])
+        assert instance.step(k * 0.001, 0.001) == OK
+        assert same(instance.number("thrusts", 8), native.step(state, enabled=k < 10))
+
+
 def test_pilot_and_vehicle_together_fly_the_whole_flight(fmu):
     flight, mission = flown("paper"), tl.load_mission("paper")
     pilot, vehicle = Instance(fmu("paper", "pilot", 3)), Instance(fmu("paper", "vehicle", 3))

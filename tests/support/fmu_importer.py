@@ -118,6 +118,17 @@ class Instance:
         references = (c_uint32 * len(values))(*range(first, first + len(values)))
         return self("SetReal", references, c_size_t(len(values)), pointer)
 
+    def truth(self, name: str, value: bool | None = None) -> bool | int:
+        """A truth value; or set it, and return the status."""
+        own = c_int if self.fmu.fmi == 2 else c_bool
+        references, values = (c_uint32 * 1)(self.fmu.places[name]), (own * 1)(bool(value))
+        more = () if self.fmu.fmi == 2 else (c_size_t(1),)
+        status = self(f"{'Get' if value is None else 'Set'}Boolean", references, c_size_t(1), values, *more)
+        if value is not None:
+            return status
+        assert status == OK, self.said
+        return bool(values[0])
+
     def first_of(self, name: str) -> int:
         """The reference of the first scalar of an array in FMI 2."""
         return next(at for key, at in self.fmu.places.items() if key.startswith((f"{name}_", f"{name}.")))

@@ -22,12 +22,12 @@ import pytest
 class Touched:
     """Writes {test that passes: [seconds, functions]} to `out`; a function is `FILE: QUALIFIED NAME`.
 
-    The seconds are of the processor, without what collecting the test's module took. `rooms`: folders of the `package`
-    whose functions count. `traced`: a folder that remembers what was traced for a compiled loop.
+    The seconds are of the processor, without what collecting the test's module took. `rooms`: how the names of files in
+    `package` begin whose functions count. `traced`: a folder that remembers what was traced for a compiled loop.
     """
 
     def __init__(self, package: Path, rooms: Iterable[str], traced: Path, out: Path) -> None:
-        self.skip, self.rooms = len(str(package)) + 1, tuple(f"{package}/{room}/" for room in rooms)
+        self.skip, self.rooms = len(str(package)) + 1, tuple(f"{package}/{room}" for room in rooms)
         self.traced, self.out = traced, out
         self.active, self.sets = list[set[Any]](), dict[Any, set[Any]]()
         self.tests, self.bad = dict[str, tuple[float, list[str]]](), set[str]()
@@ -103,20 +103,21 @@ class Touched:
         def asked(loop_code: Any, *more: Any, **options: Any) -> Any:
             with self._collected(id(loop_code)):
                 code = ask(loop_code, *more, **options)
-            self._remember(code._sources, self.sets[id(loop_code)])  # its parts share one trace
-            self.sets[id(loop_code)] |= self.sets[code._sources]
+            key = code._sources.removesuffix("-module")
+            self._remember(key, self.sets[id(loop_code)])  # its parts share one trace
+            self.sets[id(loop_code)] |= self.sets[key]
             self._count(self.sets[id(loop_code)])
             return code
 
         Code.touched, Code.__init__, LoopCode._code = True, made, asked  # type: ignore[attr-defined, method-assign]
 
     def _remember(self, key: str, more: set[Any]) -> None:
-        file = self.traced / key
-        known = set(file.read_text().split("\n")) if file.exists() else set()
-        names = self._names(self.sets[key] | more) | known
-        if names != known:
+        file, own = self.traced / key, self.sets.setdefault(key, set())
+        known = set(file.read_text().split("\n")) if file.is_file() else set()
+        names = self._names(own | more) | known
+        if key and names != known:
             file.write_text("\n".join(sorted(names)))
-        self.sets[key] |= names
+        own |= names
         self._count(names)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.core.vector import ZERO
+from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.parts.estimation.wrench.delay import late_wrench, rotor_delay
 from tandemlift.parts.estimation.wrench_push import start_wrench_push
 from tandemlift.parts.mechanics.rigid_body import Wrench
@@ -51,6 +51,21 @@ def test_on_the_floor_nothing_is_learned_and_the_model_stays(noise):
     for i in range(300):
         _, memory = late_wrench(k, memory, Wrench(float(np.sin(0.05 * i)), ZERO), float(np.cos(0.05 * i)), 0.0, T)
     assert (memory.product, memory.square) == (0.0, 0.0)
+
+
+def test_a_moment_and_a_thrust_that_grow_steadily_are_late_by_the_known_delay_and_its_error():
+    """A ramp is as far behind as it grows in that time, up to half a sample of a held input; a moment as a thrust."""
+    later, slope, turns = 0.003, 2.0, Vec3(0.5, -0.25, 0.125)  # s, N/s, N m/s
+    k, memory = rotor_delay(KNOWN, MASS, NOISE, T)
+    memory = memory._replace(product=later * 1e9, square=1e9)  # the error is known well
+    k = k._replace(keep=1.0, prior=0.0)
+    for i in range(1, 401):
+        middle = (i - 0.5) * T
+        made = Wrench(slope * middle, Vec3(*(x * middle for x in turns)))
+        wrench, memory = late_wrench(k, memory, made, 0.0, 0.0, T)
+    then = 400 * T - KNOWN - later
+    assert wrench.thrust == pytest.approx(slope * then, abs=slope * 0.5 * T)
+    assert tuple(wrench.moment) == pytest.approx([x * wrench.thrust / slope for x in turns], rel=1e-9)
 
 
 def test_an_observer_models_the_rotors_that_identification_writes():
