@@ -18,8 +18,9 @@ from tandemlift.core.files import FLIGHT_FILE, atomic_write, unpacked_size
 from tandemlift.core.findings import Finding, finding_from
 from tandemlift.core.phases import FAILURES, INTERRUPTED
 from tandemlift.core.types import Array
-from tandemlift.flight.channels import CHANNELS, DERIVED, OTHER, Channel, channel_of
+from tandemlift.flight.channels import CHANNELS, DERIVED, OTHER, STAMP, Channel, channel_of
 from tandemlift.flight.data_frames import to_pandas, to_xarray
+from tandemlift.flight.reading_stamps import reading_stamps
 from tandemlift.parts.contact.corridor import wall_tables
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
@@ -266,4 +267,7 @@ def _flight(header: dict[str, Any], arrays: dict[str, Array]) -> Flight:
         ending = Ending(quantity, at, float(value), *rest)
     mission, metrics, version = (dict(header[key]) for key in ("mission", "metrics", "version"))
     findings = tuple(finding_from(table) for table in header.get("findings", ()))
+    known = "sensors" in mission and np.isfinite(time).all()
+    if known and not STAMP.keys() & arrays.keys():  # a record of version 1.0
+        arrays |= reading_stamps(mission, time, arrays)
     return Flight(time, arrays, mission, metrics, ending, version, findings)

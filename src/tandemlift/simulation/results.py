@@ -18,6 +18,7 @@ from tandemlift.core.phases import FAILURES, IDLE, PHASE_NAMES
 from tandemlift.core.types import Array, flat, leaves, unflat
 from tandemlift.core.vector import Absent, Vec3, dot
 from tandemlift.flight.channels import DERIVED
+from tandemlift.flight.reading_stamps import reading_stamps
 from tandemlift.flight.record import Ending, Flight
 from tandemlift.missions import tables_of
 from tandemlift.missions.recording import portable
@@ -115,7 +116,8 @@ def metric_names(p: FlightPlan) -> list[str]:
 
 def channel_names(p: FlightPlan) -> list[str]:
     """The names of the channels of a flight, known before it is flown."""
-    return list(channel_columns(p.sample))
+    names = list(channel_columns(p.sample))
+    return [*names, *reading_stamps(tables_of(p.mission), np.zeros(0), names)]
 
 
 def events_of(flight_state: FlightState) -> list[list[Any]]:
@@ -206,11 +208,11 @@ def flight_of(p: FlightPlan, flown: RawResult, engine: str = "compiled") -> Flig
     """The record of a flight in an engine."""
     logged = len(flown.log) if not flown.lost else -(-flown.step // p.every)
     channels, metrics = dict(channels_of(p.sample, flown.log[:logged])), metrics_of(p, flown)
-    now = flown.now or p
+    now, tables, time = flown.now or p, tables_of(p.mission), np.arange(logged, dtype=np.float64) * p.every * p.dt
     return Flight(
-        time=np.arange(logged, dtype=np.float64) * p.every * p.dt,
-        channels=channels,
-        mission=portable(tables_of(p.mission)),
+        time=time,
+        channels=channels | reading_stamps(tables, time, channels),
+        mission=portable(tables),
         results=metrics,
         ending=ending_of(now, flown.flight_state, flown.step, flown.interruption),
         version={**versions(engine), "engine": engine},

@@ -19,9 +19,21 @@ import numpy as np
 from tandemlift.analysis.identification.windows import check_columns
 from tandemlift.analysis.linearization.loop_margins import UNROUNDED
 from tandemlift.analysis.logs.checks import check_log
-from tandemlift.analysis.logs.log import COMMANDS, FLOWN_COMMANDS, IMU, JOINTS, MOTION, PUSH, SOON, SPEED_COMMANDS, Log
+from tandemlift.analysis.logs.log import (
+    COMMANDS,
+    FLOWN_COMMANDS,
+    IMU,
+    JOINTS,
+    MOTION,
+    PUSH,
+    SOON,
+    SPEED_COMMANDS,
+    Log,
+    Stream,
+)
 from tandemlift.core.errors import FlightWarning, InputError
 from tandemlift.core.types import Array, Progress, flat, leaves, unflat
+from tandemlift.flight.channels import STAMP
 from tandemlift.missions import Mission, MissionLike, check, merge, mission_of, tables_of
 from tandemlift.simulation.fly import Flight
 from tandemlift.simulation.plan import FlightPlan
@@ -63,10 +75,14 @@ def shadow(log: Log, mission: MissionLike, *, progress: Progress | None = None) 
     p = plan_of(log, mission)
     body = LogBody(log, p)
     flight = flight_of(p, fly_stepwise(p, p.steps // p.every + 1, p.every, progress, body, lead=body.lead), ENGINE)
-    if body.flown is None:
-        return flight
-    flown = body.flown[: p.steps + 1 : p.every][: len(flight.time)]
-    return replace(flight, channels={**flight.channels, FLOWN_COMMANDS: flown})
+    more = {
+        stamp: Stream(log[name].time, log[name].time).at(flight[stamp])  # of the log's samples, not of the mission's
+        for stamp, (name, *_) in STAMP.items()
+        if stamp in flight and name in log
+    }
+    if body.flown is not None:
+        more[FLOWN_COMMANDS] = body.flown[: p.steps + 1 : p.every][: len(flight.time)]
+    return replace(flight, channels={**flight.channels, **more})
 
 
 class LogBody:

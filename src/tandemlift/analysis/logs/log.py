@@ -18,7 +18,7 @@ import numpy as np
 
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.types import Array
-from tandemlift.flight.channels import FLOWN, OTHER, Channel, channel_of
+from tandemlift.flight.channels import FLOWN, OTHER, Channel, channel_of, stamp_of
 from tandemlift.flight.record import Flight
 
 COMMANDS, SPEED_COMMANDS, FLOWN_COMMANDS = "rotor_commands", "rotor_speed_commands", FLOWN
@@ -88,6 +88,7 @@ class Log(Mapping[str, Stream]):
         streams: by name; at least one.
         source: file or flight that it came from, for messages.
         notes: what was found and changed since it was read, a line each.
+        stamp_offset: how far [s] stamps of readings may be off from those of commands; None if nobody said it.
 
     Raises:
         InputError: a stream is unknown or empty, has another width, a number that is not finite, or a stamp that is not
@@ -97,6 +98,7 @@ class Log(Mapping[str, Stream]):
     streams: Mapping[str, Stream]
     source: str = "log"
     notes: tuple[str, ...] = ()
+    stamp_offset: float | None = None
 
     def __post_init__(self) -> None:
         if not self.streams:
@@ -205,9 +207,9 @@ class Log(Mapping[str, Stream]):
 def log_of(flight: Flight) -> Log:
     """The log that a vehicle would have written in a flight with sensors.
 
-    Readings have the times at which their sensor sampled; in the channels the pilot has them a step later, or more with
-    delays. The first reading is the one with which the pilot starts, stamped one interval before the first sample.
-    Thrusts that ideal rotors produce are their commands. The moment of the push is about the payload's origin.
+    Readings have their stamps in the flight, as `imu_stamp`, and not the times at which the pilot has them. The first
+    reading is the one with which the pilot starts, stamped one interval before the first sample. Thrusts that ideal
+    rotors produce are their commands.
 
     Raises:
         InputError: the flight has no sensors.
@@ -216,9 +218,9 @@ def log_of(flight: Flight) -> Log:
         raise InputError(f'flight {flight.name}: has no readings: fly it with sensors.model = "simulated"')
     streams = {}
     for name in (n for n in flight if n.startswith("measured_")):
-        steps = sampled_steps(flight, name)
-        rows = np.flatnonzero(np.diff(steps, prepend=steps[0] - 1))
-        streams[name] = Stream(steps[rows] * flight.mission["mission"]["step"], flight[name][rows])
+        stamps = flight[stamp_of(name)]
+        rows = np.isfinite(stamps) & (np.diff(stamps, prepend=np.nan) != 0.0)
+        streams[name] = Stream(stamps[rows], flight[name][rows])
     commands = flight[COMMANDS if COMMANDS in flight else "rotor_thrusts"]
     rotors = [q for q in flight.vehicle.quadrotors for _ in range(4)]
     k, most = np.array([q.thrust_constant for q in rotors]), np.array([q.thrust_limit for q in rotors])
@@ -228,22 +230,4 @@ def log_of(flight: Flight) -> Log:
     streams[PUSH[0]] = Stream(flight.time, force)
     in_body = rotated(conjugate(flight["attitude"]), force)
     streams[PUSH[1]] = Stream(flight.time, moment + np.cross(flight.vehicle.center_of_mass, in_body))
-    return Log(streams, flight.name)
-
-
-def sampled_steps(flight: Flight, name: str) -> np.ndarray:
-    """The steps (T,) at which the readings in the rows of a flight were sampled.
-
-    Before the first sample of a device, it is one interval before that.
-    """
-    step, sensors = flight.mission["mission"]["step"], flight.mission["sensors"]
-    added = {f"measured_{sensor['name']}": sensor for sensor in sensors["additional"]}
-    device = sensors["motion"] if name in MOTION else added.get(name, sensors)
-
-    def last(clock: Mapping[str, Any], steps: np.ndarray) -> np.ndarray:
-        period, first = max(1, round(clock["interval"] / step)), round(clock["first_sample"] / step)
-        return first + np.maximum((steps - first) // period, -1) * period
-
-    sampled = last(device, np.round(flight.time / step).astype(int) - 1 - round(device["delay"] / step))
-    joints = sensors["joints"]
-    return last(joints, sampled) if name in JOINTS and joints.get("interval") is not None else sampled
+    return Log(streams, flight.name, stamp_offset=0.0)

@@ -29,6 +29,8 @@ class Topic(NamedTuple):
         frame: in which they are.
         rows: the numbers of each message (T, n), in the order of `messages.py`.
         labels: of these numbers, where the message names them.
+        stamps: the flight's times [s] of the messages' headers (T,); None for those of the samples. A message whose
+            stamp is that of the one before it is left out.
     """
 
     name: str
@@ -36,6 +38,7 @@ class Topic(NamedTuple):
     frame: str
     rows: Array
     labels: tuple[str, ...] = ()
+    stamps: Array | None = None
 
 
 class Source:
@@ -90,6 +93,7 @@ class Recipe(NamedTuple):
         back: the channels by name from these numbers; of a joint, its part of them.
         labels: of these numbers, where the message names them.
         meaning: a short description for docs/reference/topics.md.
+        stamp: the channel with the times at which a sensor took the numbers; "" for the times of the samples.
     """
 
     name: str
@@ -100,6 +104,7 @@ class Recipe(NamedTuple):
     back: Back
     labels: tuple[str, ...] = ()
     meaning: str = ""
+    stamp: str = ""
 
     def described(self, meaning: str) -> Recipe:
         """The same recipe with a meaning."""
@@ -122,6 +127,21 @@ def force(name: str, channel: str) -> Recipe:
         return np.pad(take(channel), ((0, 0), (0, 3)))
 
     return Recipe(name, WRENCH, frames.ALIGNED, (channel,), rows, lambda rows, _: {channel: rows[:, :3]})
+
+
+def motion_readings(name: str) -> Recipe:
+    """Readings of the motion measurement as odometry, whose angular velocity is NaN: it reads none."""
+    both = odometry(name, "measured_")
+    needs = both.needs[:3]
+
+    def rows(take: Source) -> Array:
+        position, attitude, velocity = map(take, needs)
+        return np.hstack([position, attitude, frames.to_body(attitude, velocity), np.full((len(position), 3), np.nan)])
+
+    def back(rows: Array, seen: MeasuredPose) -> dict[str, Array]:
+        return {name: values for name, values in both.back(rows, seen).items() if name in needs}
+
+    return both._replace(needs=needs, rows=rows, back=back, stamp="motion_stamp")
 
 
 def odometry(name: str, prefix: str = "") -> Recipe:

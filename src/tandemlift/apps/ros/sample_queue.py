@@ -16,6 +16,7 @@ from tandemlift.apps.export.messages import SECOND
 from tandemlift.apps.live.session.session import Session
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
+from tandemlift.flight.reading_stamps import reading_stamps
 from tandemlift.simulation.recorded_flight import RecordedFlight
 from tandemlift.simulation.results import channels_of
 
@@ -95,7 +96,8 @@ class SampleQueue:
 def as_flight(taken: SampleBatch, flight: RecordedFlight, tables: dict[str, Any]) -> Flight:
     """Samples as a flight, by which topics are made; `tables`: of its mission."""
     at = np.array(taken.steps) * flight.dt
-    return Flight(at, dict(channels_of(flight.layout, taken.rows)), tables, {})
+    channels = dict(channels_of(flight.layout, taken.rows))
+    return Flight(at, channels | reading_stamps(tables, at, channels), tables, {})
 
 
 def steps_between_samples(rate: float, dt: float) -> int:
