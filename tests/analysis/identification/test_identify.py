@@ -70,7 +70,9 @@ pytestmark = pytest.mark.filterwarnings("ignore::tandemlift.FlightWarning")
 
 def blind(log):
     """The log without what only a simulation knows."""
-    return Log({n: s for n, s in log.items() if not n.startswith("push_") and n != "rotor_commands"}, "blind")
+    return Log(
+        {n: s for n, s in log.items() if not n.startswith("push_") and n != "rotor_commands"}, "blind", stamp_offset=0.0
+    )
 
 
 @pytest.fixture(scope="module")

@@ -29,6 +29,7 @@ PUSH = ("push_force", "push_moment")
 STREAMS = (*IMU, *JOINTS, *MOTION, COMMANDS, SPEED_COMMANDS, *PUSH)
 """The streams that readers know; a log may have others, by names of channels."""
 
+LARGEST_OFFSET = 0.1  # s, of stamps
 SOON = 1e-6  # s: a stamp that much later than a time still counts as it
 PER = {"": 1, "quadrotor": 1, "rotor": 4}  # the number of columns of a stream is a multiple of its width times this
 
@@ -101,6 +102,9 @@ class Log(Mapping[str, Stream]):
     stamp_offset: float | None = None
 
     def __post_init__(self) -> None:
+        off = 0.0 if self.stamp_offset is None else self.stamp_offset
+        if not isinstance(off, int | float) or not 0.0 <= off <= LARGEST_OFFSET:
+            raise InputError(f"{self.source}: stamp_offset = {off!r}: must be a number from 0 to {LARGEST_OFFSET:g} s")
         if not self.streams:
             raise InputError(f"{self.source}: has no stream; known are {', '.join(STREAMS)}")
         streams = {name: self._checked(name, *stream) for name, stream in self.streams.items()}
@@ -202,6 +206,19 @@ class Log(Mapping[str, Stream]):
             return Stream(time + offset + drift * (time - about), stream.values) if name in names else stream
 
         return self.mapped(moved)
+
+
+def unknown_offset(log: Log, interval: float) -> tuple[float, tuple[str, ...]]:
+    """(How far stamps of readings may be off from those of commands [s], and a sentence about it if nobody said it).
+
+    A logger that stamps a sample when it arrives, or with its cycle, is off by about an interval of the samples. Data
+    do not tell this from a delay of the commands.
+    """
+    if log.stamp_offset is not None:
+        return log.stamp_offset, ()
+    off = f"off from their sampling by an interval of the imu, {1e3 * interval:.3g} ms: the interval of actuators.delay"
+    known = "has it in it. If they are exact, say stamp_offset = 0 in the map"
+    return interval, (f"{log.source}: Stamps of readings may be {off} {known}.",)
 
 
 def log_of(flight: Flight) -> Log:
