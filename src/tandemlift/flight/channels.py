@@ -138,7 +138,7 @@ GROUPS: tuple[ChannelGroup, ...] = (
             "push_estimate": Channel(
                 "N", "world", "estimated push, after the low-pass filter; 0 until the tare is over"
             ),
-            "push_moment_estimate": Channel("N m", "body", "moment of the push about the payload's centre of mass"),
+            "push_moment_estimate": Channel("N m", "body", "moment of the estimated push about the centre of mass"),
             "push_point_estimate": Channel(
                 "m", "body y", "where on the beam the push acts; 0 while it is too small to tell", 1
             ),
@@ -238,6 +238,7 @@ STAMP = {
 LOGGED = {
     "rotor_speed_commands": Channel("rad/s", "body z", "commanded speed of each rotor", 1, "rotor"),
     FLOWN: Channel("N", "body z", "commanded thrust of each rotor in a log that is shadowed", 1, "rotor"),
+    "push_moment_at_origin": Channel("N m", "body", "moment of the person about the payload's origin"),
 }
 """Channels of logs and of their shadows (`analysis.identification`), which no flight has."""
 

@@ -143,8 +143,9 @@ def test_an_own_law_flies_in_place_of_a_built_in_one(scored):
 def test_a_function_has_the_errors_that_the_flight_has_of_the_same_estimate():
     changes = {"estimator.wrench": "kalman", "estimator.error_metrics": True, "mission.log_interval": 0.001}
     flight = tl.fly(tl.load_mission("iris", {**changes, "mission.duration": 18.0}))
-    found = benchmark.of_function(lambda table: flight["push_estimate"][: len(table)], flight)
-    for name in ("push_force_rmse_n", "push_delay_s"):
+    both = np.hstack([flight["push_estimate"], flight["push_moment_estimate"]])
+    found = benchmark.of_function(lambda table: both[: len(table)], flight)
+    for name in ("push_force_rmse_n", "push_moment_rmse_n_m", "push_delay_s"):
         assert found[name] == pytest.approx(flight.metrics()[name], rel=1e-3)
 
 

@@ -25,7 +25,8 @@ COMMANDS, SPEED_COMMANDS, FLOWN_COMMANDS = "rotor_commands", "rotor_speed_comman
 IMU = ("measured_specific_force", "measured_rates")
 JOINTS = ("measured_joint_force", "measured_joint_torque")
 MOTION = ("measured_position", "measured_velocity", "measured_attitude")
-PUSH = ("push_force", "push_moment")
+PUSH = ("push_force", "push_moment_at_origin")
+BEFORE = {"push_moment": PUSH[1]}  # names of version 1.0, and those in their place
 STREAMS = (*IMU, *JOINTS, *MOTION, COMMANDS, SPEED_COMMANDS, *PUSH)
 """The streams that readers know; a log may have others, by names of channels."""
 
@@ -107,7 +108,9 @@ class Log(Mapping[str, Stream]):
             raise InputError(f"{self.source}: stamp_offset = {off!r}: must be a number from 0 to {LARGEST_OFFSET:g} s")
         if not self.streams:
             raise InputError(f"{self.source}: has no stream; known are {', '.join(STREAMS)}")
-        streams = {name: self._checked(name, *stream) for name, stream in self.streams.items()}
+        streams = {BEFORE.get(name, name): self._checked(name, *stream) for name, stream in self.streams.items()}
+        old = [f"{name} of a log is now called {new}" for name, new in BEFORE.items() if name in self.streams]
+        object.__setattr__(self, "notes", (*self.notes, *old))
         object.__setattr__(self, "streams", streams)
 
     def _checked(self, name: str, time: Any, values: Any) -> Stream:
@@ -134,6 +137,7 @@ class Log(Mapping[str, Stream]):
         return Stream(time, values)
 
     def __getitem__(self, name: str) -> Stream:
+        name = BEFORE.get(name, name)
         if name not in self.streams:
             raise KeyError(f"{self.source} has no stream {name!r}; it has {', '.join(self.streams)}")
         return self.streams[name]
@@ -243,7 +247,7 @@ def log_of(flight: Flight) -> Log:
     k, most = np.array([q.thrust_constant for q in rotors]), np.array([q.thrust_limit for q in rotors])
     streams[COMMANDS] = Stream(flight.time, commands)
     streams[SPEED_COMMANDS] = Stream(flight.time, np.sqrt(np.clip(commands, 0.0, most) / k))
-    force, moment = (flight[name] for name in PUSH)
+    force, moment = flight["push_force"], flight["push_moment"]
     streams[PUSH[0]] = Stream(flight.time, force)
     in_body = rotated(conjugate(flight["attitude"]), force)
     streams[PUSH[1]] = Stream(flight.time, moment + np.cross(flight.vehicle.center_of_mass, in_body))

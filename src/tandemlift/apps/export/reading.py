@@ -153,7 +153,7 @@ def _channels(said: dict[str, Stamped], stamps: Array, vehicle: Vehicle, mission
     there |= set(topics.JOINTS[1][1:3]) if said[f"{topics.ROOT}/joint_1/measured"] else set()
     there |= {name.partition(".")[0] for m in list(said[VALUES].values())[:1] for name in m.name} & {*topics.PILOT}
     parts: dict[str, list[Array]] = defaultdict(list)
-    seen, stamped = MeasuredPose(np.zeros((0, 4)), vehicle), dict[str, Array]()
+    seen, stamped = MeasuredPose(np.zeros((0, 4))), dict[str, Array]()
     for recipe in topics.all_recipes(there, vehicle):
         own = said[f"{topics.ROOT}/{recipe.name}"]
         if not own:

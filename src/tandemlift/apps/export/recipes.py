@@ -72,10 +72,9 @@ class Source:
 
 
 class MeasuredPose(NamedTuple):
-    """The data that turn numbers of messages back into channels: the vehicle and its attitudes (T, 4)."""
+    """The data that turn numbers of messages back into channels: the vehicle's attitudes (T, 4)."""
 
     attitude: Array
-    vehicle: Vehicle
 
 
 Back = Callable[[Array, MeasuredPose], dict[str, Array]]
@@ -160,22 +159,15 @@ def odometry(name: str, prefix: str = "") -> Recipe:
     return Recipe(name, ODOMETRY, frames.WORLD, needs, rows, back)
 
 
-def wrench(name: str, force: str, moment: str, at: Callable[[Vehicle], Array] | None = None) -> Recipe:
-    """A force in world axes and a moment in body axes, as a wrench in world axes at the vehicle's centre of mass.
-
-    `at` gives the point that the moment is about [m, body axes, from the centre of mass]; without it, that centre.
-    """
-
-    def lever(attitude: Array, vehicle: Vehicle, f: Array) -> Array:
-        return np.cross(frames.to_world(attitude, np.broadcast_to(at(vehicle), f.shape)), f) if at else np.zeros_like(f)
+def wrench(name: str, force: str, moment: str) -> Recipe:
+    """A force in world axes and a moment in body axes, as a wrench in world axes at the vehicle's centre of mass."""
 
     def rows(take: Source) -> Array:
         f, m, attitude = map(take, (force, moment, "attitude"))
-        return np.hstack([f, frames.to_world(attitude, m) + lever(attitude, take.vehicle, f)])
+        return np.hstack([f, frames.to_world(attitude, m)])
 
     def back(rows: Array, seen: MeasuredPose) -> dict[str, Array]:
-        f, m = rows[:, :3], rows[:, 3:]
-        return {force: f, moment: frames.to_body(seen.attitude, m - lever(seen.attitude, seen.vehicle, f))}
+        return {force: rows[:, :3], moment: frames.to_body(seen.attitude, rows[:, 3:])}
 
     return Recipe(name, WRENCH, frames.ALIGNED, (force, moment, "attitude"), rows, back)
 

@@ -84,7 +84,7 @@ SOMETIMES = (
         "part of the command that the rotors give within their limits"
     ),
     force("push/measured", "push_measured").described("from the latest joint readings; a force alone"),
-    wrench("push/estimated", "push_estimate", "push_moment_estimate", lambda v: v.payload_center).described(
+    wrench("push/estimated", "push_estimate", "push_moment_estimate").described(
         "after the low-pass filter; its moment, as that of `push/true`, about the vehicle's centre of mass"
     ),
     force("push/filtered", "push_filtered").described(
