@@ -64,7 +64,8 @@ def test_the_moment_about_the_payload_s_origin_has_a_name_of_its_own_in_a_log(fl
     log = log_of(flown)
     assert "push_moment" not in list(log)
     turned = Rotation.from_quat(flown["attitude"], scalar_first=True).apply(flown["push_force"], inverse=True)
-    expected = np.cross(center(flown) + [0.0, 0.4, 0.0], turned)  # the mission's point is from the centre of mass
+    place = np.add(center(flown), [0.0, 0.4, 0.0])  # the mission's point is from the centre of mass
+    expected = np.cross(place, turned)
     np.testing.assert_allclose(log["push_moment_at_origin"].values, expected, rtol=0.0, atol=1e-3)
 
 

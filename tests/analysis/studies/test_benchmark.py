@@ -255,5 +255,5 @@ def test_the_command_prints_the_row_beside_the_baselines(tmp_path):
 
 def test_numbers_are_written_so_that_they_are_read_as_they_are():
     tables = {"policies": {"a": {"work (J)": 0.1, "force (N)": None}}}
-    assert csv_of(tables).splitlines()[1:] == ["policies,a,work (J),0.1", "policies,a,force (N),"]
+    assert csv_of(tables).splitlines()[1:] == ["policies,a,work (J),0.1", "policies,a,force (N),NaN"]
     assert '"work (J)": 0.1' in json_of(tables)

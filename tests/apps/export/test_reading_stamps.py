@@ -1,5 +1,8 @@
 """Readings have the times at which they were taken, in every file: by readers of others, they are then the truth."""
 
+import warnings
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from exported import mcap_of, numbers, xyz
@@ -152,8 +155,6 @@ def test_a_topic_of_readings_has_each_sample_once_and_one_that_is_stale_has_none
 
 
 def test_a_record_of_version_1_0_gets_its_stamps_when_it_is_read(flight, tmp_path):
-    from dataclasses import replace
-
     old = replace(flight, channels={name: values for name, values in flight.channels.items() if name not in STAMP})
     found = tl.Flight.load(old.save(tmp_path / "old.npz"))
     for name in STAMP:
@@ -161,8 +162,6 @@ def test_a_record_of_version_1_0_gets_its_stamps_when_it_is_read(flight, tmp_pat
 
 
 def test_a_bag_of_version_1_0_gives_its_readings_to_the_rows_that_had_them(flight, tmp_path):
-    from dataclasses import replace
-
     pytest.importorskip("rosbags.rosbag1")
     old = replace(flight, channels={name: values for name, values in flight.channels.items() if name not in STAMP})
     found = read_bag(export(old, tmp_path / "old.bag"))  # without stamps, every message has the time of its row
@@ -185,3 +184,18 @@ def test_a_table_of_our_own_is_a_log_by_the_stamps_of_its_readings(flight, tmp_p
         assert np.array_equal(log[name].values, own[name].values)
     shifts = [own[name].time[0] - log[name].time[0] for name in columns]
     assert shifts[0] == pytest.approx(shifts[1], abs=1e-9)
+
+
+def test_a_map_says_whether_stamps_are_exact_and_late_ones_of_our_own_tables_are_warned_of(flight, tmp_path):
+    path = export(flight, tmp_path / "log.csv")
+    columns = {"columns": [f"measured_rates[rad/s].{axis}" for axis in "xyz"]}
+    own = {"stamp_offset": 0.0, "measured_rates": columns | {"time": "imu_stamp[s]"}}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert tl.read_log(path, own).stamp_offset == 0.0
+    said = r'times of rows, .* taken earlier: measured_rates \(time = "imu_stamp\[s\]"\)'
+    with pytest.warns(tl.FlightWarning, match=said):
+        assert tl.read_log(path, {"measured_rates": columns | {"time": "time[s]"}}).stamp_offset is None
+    assert log_of(flight).stamp_offset == 0.0
+    with pytest.raises(tl.InputError, match=r"stamp_offset = 'none': must be a number"):
+        tl.read_log(path, own | {"stamp_offset": "none"})

@@ -29,7 +29,7 @@ from tandemlift.apps.export.messages import SECOND
 from tandemlift.apps.export.reading import BASE, read_bag, reading_bag, stamp_of
 from tandemlift.apps.export.topics import MISSION
 from tandemlift.core.errors import InputError, extra, shown, unknown
-from tandemlift.core.files import DATA, FLIGHT_FILE, toml_tables
+from tandemlift.core.files import DATA, FLIGHT_FILE, is_flight_file, toml_tables
 from tandemlift.core.keys import Table
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
@@ -99,7 +99,7 @@ def _read(path: Path, own: Map) -> Log:
     kind = path.suffix.lower()
     known = _map_in(DATA / "logs" / f"{'ulog' if kind == '.ulg' else 'bag'}.toml")
     given = _ways({key: known[key] for key in OF_ALL if key in known} | dict(own))
-    if kind == ".npz" or (path / FLIGHT_FILE).is_file():
+    if is_flight_file(path) or (path / FLIGHT_FILE).is_file():
         return log_of(Flight.load(path))
     if kind == ".csv":
         if not given:
