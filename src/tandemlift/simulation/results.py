@@ -169,6 +169,12 @@ def channels_of(like: Any, rows: Array) -> Iterator[tuple[str, Array]]:
         at += leaves(part)
 
 
+def recorded_channels(like: Any, rows: Array, tables: dict[str, Any], time: Array) -> dict[str, Array]:
+    """The channels of samples at some times [s], with the stamps of readings; `tables`: of the mission."""
+    channels = dict(channels_of(like, rows))
+    return channels | reading_stamps(tables, time, channels)
+
+
 def channel_columns(like: Any) -> dict[str, NDArray[np.intp]]:
     """The places of the numbers of every channel in samples laid out like `like`, in the shape of the channel."""
     row = np.arange(leaves(like), dtype=np.float64)[None, :]
@@ -207,11 +213,11 @@ class SampleChannels:
 def flight_of(p: FlightPlan, flown: RawResult, engine: str = "compiled") -> Flight:
     """The record of a flight in an engine."""
     logged = len(flown.log) if not flown.lost else -(-flown.step // p.every)
-    channels, metrics = dict(channels_of(p.sample, flown.log[:logged])), metrics_of(p, flown)
-    now, tables, time = flown.now or p, tables_of(p.mission), np.arange(logged, dtype=np.float64) * p.every * p.dt
+    metrics, now, tables = metrics_of(p, flown), flown.now or p, tables_of(p.mission)
+    time = np.arange(logged, dtype=np.float64) * p.every * p.dt
     return Flight(
         time=time,
-        channels=channels | reading_stamps(tables, time, channels),
+        channels=recorded_channels(p.sample, flown.log[:logged], tables, time),
         mission=portable(tables),
         results=metrics,
         ending=ending_of(now, flown.flight_state, flown.step, flown.interruption),

@@ -29,11 +29,10 @@ from tandemlift.analysis.logs.log import (
     SOON,
     SPEED_COMMANDS,
     Log,
-    Stream,
+    sample_stamps,
 )
 from tandemlift.core.errors import FlightWarning, InputError
 from tandemlift.core.types import Array, Progress, flat, leaves, unflat
-from tandemlift.flight.channels import STAMP
 from tandemlift.missions import Mission, MissionLike, check, merge, mission_of, tables_of
 from tandemlift.simulation.fly import Flight
 from tandemlift.simulation.plan import FlightPlan
@@ -75,11 +74,7 @@ def shadow(log: Log, mission: MissionLike, *, progress: Progress | None = None) 
     p = plan_of(log, mission)
     body = LogBody(log, p)
     flight = flight_of(p, fly_stepwise(p, p.steps // p.every + 1, p.every, progress, body, lead=body.lead), ENGINE)
-    more = {
-        stamp: Stream(log[name].time, log[name].time).at(flight[stamp])  # of the log's samples, not of the mission's
-        for stamp, (name, *_) in STAMP.items()
-        if stamp in flight and name in log
-    }
+    more = sample_stamps(log, flight)
     if body.flown is not None:
         more[FLOWN_COMMANDS] = body.flown[: p.steps + 1 : p.every][: len(flight.time)]
     return replace(flight, channels={**flight.channels, **more})

@@ -18,7 +18,7 @@ import numpy as np
 
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.types import Array
-from tandemlift.flight.channels import FLOWN, OTHER, Channel, channel_of, stamp_of
+from tandemlift.flight.channels import FLOWN, OTHER, STAMP, Channel, channel_of, stamp_of
 from tandemlift.flight.record import Flight
 
 COMMANDS, SPEED_COMMANDS, FLOWN_COMMANDS = "rotor_commands", "rotor_speed_commands", FLOWN
@@ -223,6 +223,12 @@ def unknown_offset(log: Log, interval: float) -> tuple[float, tuple[str, ...]]:
     off = f"off from their sampling by an interval of the imu, {1e3 * interval:.3g} ms: the interval of actuators.delay"
     known = "has it in it. If they are exact, say stamp_offset = 0 in the map"
     return interval, (f"{log.source}: Stamps of readings may be {off} {known}.",)
+
+
+def sample_stamps(log: Log, flight: Flight) -> dict[str, Array]:
+    """The stamps (T,) [s] of the log's samples that a shadow's sensors read, by the channel of the stamps."""
+    names = {stamp: name for stamp, (name, *_) in STAMP.items() if stamp in flight and name in log}
+    return {stamp: Stream(log[name].time, log[name].time).at(flight[stamp]) for stamp, name in names.items()}
 
 
 def log_of(flight: Flight) -> Log:

@@ -16,9 +16,8 @@ from tandemlift.apps.export.messages import SECOND
 from tandemlift.apps.live.session.session import Session
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
-from tandemlift.flight.reading_stamps import reading_stamps
 from tandemlift.simulation.recorded_flight import RecordedFlight
-from tandemlift.simulation.results import channels_of
+from tandemlift.simulation.results import recorded_channels
 
 MOST = 1000  # samples that may wait; more are forgotten, the oldest first
 
@@ -96,8 +95,7 @@ class SampleQueue:
 def as_flight(taken: SampleBatch, flight: RecordedFlight, tables: dict[str, Any]) -> Flight:
     """Samples as a flight, by which topics are made; `tables`: of its mission."""
     at = np.array(taken.steps) * flight.dt
-    channels = dict(channels_of(flight.layout, taken.rows))
-    return Flight(at, channels | reading_stamps(tables, at, channels), tables, {})
+    return Flight(at, recorded_channels(flight.layout, taken.rows, tables, at), tables, {})
 
 
 def steps_between_samples(rate: float, dt: float) -> int:
