@@ -115,7 +115,8 @@ def flown(vehicle: dict[str, Any], flight: dict[str, Any], seed: int, engine: st
     with without_flight_warnings():
         mission = load_mission(START, vehicle | flight | changes)
         log = log_of(tl.fly(mission, engine=engine))
-    log = Log({n: s for n, s in log.items() if n not in (*PUSH, "rotor_commands")}, f"vehicle {seed}")
+    streams = {n: s for n, s in log.items() if n not in (*PUSH, "rotor_commands")}
+    log = Log(streams, f"vehicle {seed}", stamp_offset=log.stamp_offset)
     chance = np.random.default_rng([seed, 1])
     for names in GROUPS.values():
         log = log.aligned(names, *(size * chance.uniform(-1.0, 1.0) for size in CLOCK))

@@ -8,7 +8,7 @@ from reference_tables.channels import channel_tables
 import tandemlift as tl
 from tandemlift.core.types import leaves
 from tandemlift.core.vector import Absent
-from tandemlift.flight.channels import CHANNELS, DERIVED
+from tandemlift.flight.channels import CHANNELS, DERIVED, STAMP
 from tandemlift.flight.channels import GROUPS as CHANNEL_GROUPS
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceChannels
 from tandemlift.parts.guidance.supervision import SupervisionChannels
@@ -51,7 +51,7 @@ ALWAYS = [name for name in Sample._fields if name not in GROUPS]
 
 
 def test_a_step_logs_the_channels_of_the_record_and_no_others_in_its_order():
-    assert list(CHANNELS) == channels_in(Sample._fields)
+    assert list(CHANNELS) == [*channels_in(Sample._fields), *STAMP]
     assert len(CHANNELS) == sum(len(group.channels) for group in CHANNEL_GROUPS), "a name in two groups"
     assert not set(DERIVED) & set(CHANNELS)
 
@@ -109,7 +109,7 @@ def test_a_mission_with_all_parts_has_all_channels():
 
 @pytest.mark.parametrize("groups", PARTS)
 def test_channels_are_not_there_if_the_mission_has_not_their_part(groups):
-    missing = channels_in(groups.split(", "))
+    missing = channels_in(groups.split(", ")) + [*STAMP] * groups.startswith("measured")
     assert list(unflown(WHOLE | PARTS[groups])) == [name for name in CHANNELS if name not in missing]
 
 

@@ -156,7 +156,11 @@ TOLD_OF_OTHERS = [
     ("flight-ready", {"plant.mass_scale": 0.67}, ["along z with 11.3 N", "stays 0.18 m off", "plant.mass_scale"]),
     ("flight-ready", {"disturbance.force": [3.0, 0.0, 0.0]}, ["stays 0.397 m off", "observer.model"]),
     ("flight-ready", {**REAL, "initial.velocity": [-2.9, 0.0, 0.0]}, ["rad of tilt along x"]),
-    ("flight-ready", {**REAL, "initial.rates": [0.0, 0.0, -1.8]}, ["N m in yaw (its law commands 9.24", "the rotors can exert 1.33 in hover"]),
+    (
+        "flight-ready",
+        {**REAL, "initial.rates": [0.0, 0.0, -1.8]},
+        ["N m in yaw (its law commands 9.24", "the rotors can exert 1.33 in hover"],
+    ),
     ("zigzag", {"corridor.width": 2.6}, ["with its heading kept"]),
     ("narrow", {"corridor.width": 0.7}, ["trailing behind its end"]),
     ("zigzag", {"mission.duration": 30.0}, ["the person's path of"]),

@@ -30,6 +30,8 @@ def flight_of(mission, **changes):
     channels = {name: anything(name, len(tables["vehicle"]["quadrotors"]), rng) for name in CHANNELS}
     channels["phase"] = np.repeat([0.0, 1.0, 4.0, 2.0], SAMPLES // 4)
     time = np.arange(SAMPLES, dtype=np.float64) * 0.0123
+    channels |= {"imu_stamp": time - 0.001, "joints_stamp": time - 0.0025}
+    channels["motion_stamp"] = np.repeat(time[::2] - 0.008, 2)  # a sample for two rows
     return replace(Flight(time, channels, tables, {"events": []}), **changes)
 
 

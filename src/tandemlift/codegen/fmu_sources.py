@@ -20,7 +20,7 @@ from tandemlift.missions import Mission
 from tandemlift.simulation.pilot_api import INPUT, pilot_at_start
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation.traced_assembly import TracedAssembly, trace_assembly, with_values
-from tandemlift.simulation.results import channel_names
+from tandemlift.simulation.results import channel_columns
 
 PARTS = {
     "pilot": "the pilot: state and push in, thrusts out",
@@ -92,7 +92,7 @@ def flight_part(mission: Mission, part: str) -> FmuPart:
         used, model = VehicleStep(flight.templates, fuses=False, rolls=False).used(), spans["flight"].columns
         found = [x for i, x in enumerate(found) if i >= model or i in used]
     count, external = len(traced.keys), plan.given.external
-    names = [name for name in channel_names(plan) if is_whole or is_of_vehicle(name)]
+    names = [name for name in channel_columns(plan.sample) if is_whole or is_of_vehicle(name)]
     shown, places = fmu_variables.outputs(flight.templates.sample, count + leaves(external), names)
     variables = [*fmu_variables.parameters(traced, facts, _effective(traced, found))]
     variables += [*fmu_variables.caller_inputs(external, count, has_pilot=is_whole), *shown]

@@ -50,6 +50,12 @@ def aside(path: Path, beside: Path) -> Iterator[Path]:
         shutil.rmtree(partial) if partial.is_dir() else partial.unlink(missing_ok=True)
 
 
+def is_flight_file(path: Path) -> bool:
+    """Whether a path is that of a saved flight: by its ending .npz, or, since `save` takes any name, by what it is."""
+    others = (".bag", ".mcap", ".zip", ".fmu")
+    return path.suffix == ".npz" or (path.suffix not in others and path.is_file() and zipfile.is_zipfile(path))
+
+
 def write_file(path: Path, content: str | bytes) -> None:
     """Write a whole file atomically; a text in UTF-8."""
     with atomic_write(path) as partial:

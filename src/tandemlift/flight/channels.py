@@ -104,15 +104,32 @@ GROUPS: tuple[ChannelGroup, ...] = (
     ChannelGroup(
         'With sensors (`sensors.model = "simulated"`)',
         {
-            "measured_position": Channel("m", "world", "motion capture reading of position"),
-            "measured_velocity": Channel("m/s", "world", "motion capture reading of velocity"),
-            "measured_attitude": Channel(
-                "1", "body to world", "motion capture reading of attitude, quaternion w, x, y, z", 4
+            "measured_position": Channel(
+                "m", "world", "motion capture reading of position of an earlier time, motion_stamp"
             ),
-            "measured_rates": Channel("rad/s", "body", "gyroscope reading"),
-            "measured_specific_force": Channel("m/s^2", "body", "accelerometer reading, at the payload's origin"),
-            "measured_joint_force": Channel("N", "body", "force reading at each joint, as joint_force", 3, "quadrotor"),
-            "measured_joint_torque": Channel("N m", "body", "torque reading at each joint", 3, "quadrotor"),
+            "measured_velocity": Channel(
+                "m/s", "world", "motion capture reading of velocity of an earlier time, motion_stamp"
+            ),
+            "measured_attitude": Channel(
+                "1",
+                "body to world",
+                "motion capture reading of attitude, quaternion w, x, y, z, of an earlier time, motion_stamp",
+                4,
+            ),
+            "measured_rates": Channel("rad/s", "body", "gyroscope reading of an earlier time, imu_stamp"),
+            "measured_specific_force": Channel(
+                "m/s^2", "body", "accelerometer reading, at the payload's origin, of an earlier time, imu_stamp"
+            ),
+            "measured_joint_force": Channel(
+                "N",
+                "body",
+                "force reading at each joint, as joint_force, of an earlier time, joints_stamp",
+                3,
+                "quadrotor",
+            ),
+            "measured_joint_torque": Channel(
+                "N m", "body", "torque reading at each joint of an earlier time, joints_stamp", 3, "quadrotor"
+            ),
             "estimated_position": Channel("m", "world", "estimated position of the vehicle's centre of mass"),
             "estimated_velocity": Channel("m/s", "world", "estimated velocity of the centre of mass"),
             "estimated_attitude": Channel("1", "body to world", "estimated attitude, quaternion w, x, y, z", 4),
@@ -121,7 +138,7 @@ GROUPS: tuple[ChannelGroup, ...] = (
             "push_estimate": Channel(
                 "N", "world", "estimated push, after the low-pass filter; 0 until the tare is over"
             ),
-            "push_moment_estimate": Channel("N m", "body", "moment of the push about the payload's centre of mass"),
+            "push_moment_estimate": Channel("N m", "body", "moment of the estimated push about the centre of mass"),
             "push_point_estimate": Channel(
                 "m", "body y", "where on the beam the push acts; 0 while it is too small to tell", 1
             ),
@@ -136,8 +153,10 @@ GROUPS: tuple[ChannelGroup, ...] = (
                 "part of the measured push that is not followed, because the motion refutes it or wind explains it",
             ),
         },
-        "A measured value is the one that the pilot has at that time, taken a step before or earlier; estimates come "
-        "from such values.",
+        "A measured value is the one that the pilot has at the time of the row. Its sensor took it a step before or "
+        "earlier, at the time that `imu_stamp`, `joints_stamp` or `motion_stamp` has in the same row; for a comparison "
+        "with the truth, or a log, it belongs to that time. Estimates come from such values, and have the time of the "
+        "row, in which the pilot uses them.",
     ),
     ChannelGroup(
         'With detection of contacts (`contact.model = "on"`)',
@@ -195,12 +214,31 @@ GROUPS: tuple[ChannelGroup, ...] = (
         'With detection of a lost rotor (`detection.model = "residual"`)',
         {"failed_rotor": Channel("1", "", "number of the rotor that is classified as failed; 0 for none", 1)},
     ),
+    ChannelGroup(
+        'Stamps of readings (`sensors.model = "simulated"`)',
+        {
+            "imu_stamp": Channel("s", "", "time at which the imu took its readings in this row", 1),
+            "joints_stamp": Channel("s", "", "time at which the joints' sensors took theirs", 1),
+            "motion_stamp": Channel("s", "", "time at which the motion measurement took its readings", 1),
+        },
+        "An additional sensor NAME has `NAME_stamp`. Before the first sample, a stamp is one interval before it. A "
+        "sensor that is stale keeps its last stamp. Stamps follow from the mission: code that is exported, and "
+        "`tl.Simulation`, have none.",
+    ),
 )
 
 FLOWN = "flown_rotor_commands"
+STAMP = {
+    "imu_stamp": ("measured_rates", "measured_specific_force"),
+    "joints_stamp": ("measured_joint_force", "measured_joint_torque"),
+    "motion_stamp": ("measured_position", "measured_velocity", "measured_attitude"),
+}
+"""The readings with each stamp. That of an additional sensor NAME, `NAME_stamp`, is of `measured_NAME`."""
+
 LOGGED = {
     "rotor_speed_commands": Channel("rad/s", "body z", "commanded speed of each rotor", 1, "rotor"),
     FLOWN: Channel("N", "body z", "commanded thrust of each rotor in a log that is shadowed", 1, "rotor"),
+    "push_moment_at_origin": Channel("N m", "body", "moment of the person about the payload's origin"),
 }
 """Channels of logs and of their shadows (`analysis.identification`), which no flight has."""
 
@@ -218,7 +256,14 @@ DERIVED: dict[str, tuple[str, str, Channel]] = {
 
 def channel_of(name: str) -> Channel:
     """The description of the channel of that name; for an additional sensor, that of the sensor."""
-    sensor = ADDITIONAL.get(name.removeprefix("measured_"))
+    sensor = ADDITIONAL.get(name.removeprefix("measured_").removesuffix("_stamp"))
     if name in CHANNELS or sensor is None:
         return CHANNELS.get(name, LOGGED.get(name, TIME if name == "time" else OTHER))
+    if name.endswith("_stamp"):
+        return Channel("s", "", f"time at which the sensor {sensor.name!r} took its reading", 1)
     return Channel(sensor.unit, sensor.frame, f"reading of the sensor {sensor.name!r}: {sensor.meaning}", sensor.width)
+
+
+def stamp_of(name: str) -> str:
+    """The channel with the stamps of the readings in a channel `measured_…`."""
+    return next((stamp for stamp, names in STAMP.items() if name in names), f"{name.removeprefix('measured_')}_stamp")

@@ -20,9 +20,12 @@ from tandemlift.core.files import FLIGHT_FILE, __version__, atomic_write, unpack
 from tandemlift.core.findings import Finding, finding_from
 from tandemlift.core.phases import FAILURES, INTERRUPTED
 from tandemlift.core.types import Array
-from tandemlift.flight.channels import CHANNELS, DERIVED, OTHER, Channel, channel_of
+from tandemlift.core.vector import Quat, Vec3, apply_transposed
+from tandemlift.flight.channels import CHANNELS, DERIVED, OTHER, STAMP, Channel, channel_of
 from tandemlift.flight.data_frames import to_pandas, to_xarray
+from tandemlift.flight.reading_stamps import reading_stamps
 from tandemlift.parts.contact.corridor import wall_tables
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 if TYPE_CHECKING:
@@ -263,6 +266,12 @@ def _check_names(header: dict[str, Any]) -> None:
             raise unknown("channel", name, CHANNELS)
 
 
+def moment_of(place: Array, attitude: Array, force: Array) -> Array:
+    """Moments [N·m, body axes] (T, 3) of forces [N, world axes] (T, 3) at a place [m, body axes] (3)."""
+    turned = rotation_from_quaternion(Quat(*attitude.T))
+    return np.cross(place, np.stack(apply_transposed(turned, Vec3(*force.T)), axis=1))
+
+
 def _flight(header: dict[str, Any], arrays: dict[str, Array]) -> Flight:
     """The flight of a header and its arrays, if they are consistent."""
     _check_names(header)
@@ -275,4 +284,11 @@ def _flight(header: dict[str, Any], arrays: dict[str, Array]) -> Flight:
         ending = Ending(quantity, at, float(value), *rest)
     mission, metrics, version = (dict(header[key]) for key in ("mission", "metrics", "version"))
     findings = tuple(finding_from(table) for table in header.get("findings", ()))
+    moment = "push_moment_estimate"
+    if "payload" in header["channels"].get(moment, {}).get("meaning", ""):  # about that centre, in version 1.0
+        center, push = Vehicle.from_mission(mission).payload_center, arrays["push_estimate"]
+        arrays[moment] = arrays[moment] + moment_of(center, arrays["estimated_attitude"], push)
+    known = "sensors" in mission and np.isfinite(time).all()
+    if known and not STAMP.keys() & arrays.keys():  # a record of version 1.0
+        arrays |= reading_stamps(mission, time, arrays)
     return Flight(time, arrays, mission, metrics, ending, version, findings)

@@ -17,6 +17,7 @@ from tandemlift.core.phases import FAILURES, IDLE, PHASE_NAMES
 from tandemlift.core.types import Array, flat, leaves, unflat
 from tandemlift.core.vector import Absent, Vec3, dot
 from tandemlift.flight.channels import DERIVED
+from tandemlift.flight.reading_stamps import reading_stamps
 from tandemlift.flight.record import Ending, Flight, versions
 from tandemlift.missions import tables_of
 from tandemlift.missions.recording import portable
@@ -114,7 +115,8 @@ def metric_names(p: FlightPlan) -> list[str]:
 
 def channel_names(p: FlightPlan) -> list[str]:
     """The names of the channels of a flight, known before it is flown."""
-    return list(channel_columns(p.sample))
+    names = list(channel_columns(p.sample))
+    return [*names, *reading_stamps(tables_of(p.mission), np.zeros(0), names)]
 
 
 def events_of(flight_state: FlightState) -> list[list[Any]]:
@@ -166,6 +168,12 @@ def channels_of(like: Any, rows: Array) -> Iterator[tuple[str, Array]]:
         at += leaves(part)
 
 
+def recorded_channels(like: Any, rows: Array, tables: dict[str, Any], time: Array) -> dict[str, Array]:
+    """The channels of samples at some times [s], with the stamps of readings; `tables`: of the mission."""
+    channels = dict(channels_of(like, rows))
+    return channels | reading_stamps(tables, time, channels)
+
+
 def channel_columns(like: Any) -> dict[str, NDArray[np.intp]]:
     """The places of the numbers of every channel in samples laid out like `like`, in the shape of the channel."""
     row = np.arange(leaves(like), dtype=np.float64)[None, :]
@@ -204,12 +212,12 @@ class SampleChannels:
 def flight_of(p: FlightPlan, flown: RawResult, engine: str = "compiled") -> Flight:
     """The record of a flight in an engine."""
     logged = len(flown.log) if not flown.lost else -(-flown.step // p.every)
-    channels, metrics = dict(channels_of(p.sample, flown.log[:logged])), metrics_of(p, flown)
-    now = flown.now or p
+    metrics, now, tables = metrics_of(p, flown), flown.now or p, tables_of(p.mission)
+    time = np.arange(logged, dtype=np.float64) * p.every * p.dt
     return Flight(
-        time=np.arange(logged, dtype=np.float64) * p.every * p.dt,
-        channels=channels,
-        mission=portable(tables_of(p.mission)),
+        time=time,
+        channels=recorded_channels(p.sample, flown.log[:logged], tables, time),
+        mission=portable(tables),
         results=metrics,
         ending=ending_of(now, flown.flight_state, flown.step, flown.interruption),
         version={**versions(engine), "engine": engine},

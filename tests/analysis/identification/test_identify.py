@@ -70,7 +70,9 @@ pytestmark = pytest.mark.filterwarnings("ignore::tandemlift.FlightWarning")
 
 def blind(log):
     """The log without what only a simulation knows."""
-    return Log({n: s for n, s in log.items() if not n.startswith("push_") and n != "rotor_commands"}, "blind")
+    return Log(
+        {n: s for n, s in log.items() if not n.startswith("push_") and n != "rotor_commands"}, "blind", stamp_offset=0.0
+    )
 
 
 @pytest.fixture(scope="module")
@@ -352,3 +354,24 @@ def test_bad_input_is_named(log):
     still["measured_rates"] = Stream(log["measured_rates"].time, 0.0 * log["measured_rates"].values)
     with pytest.raises(InputError, match="measured_rates: column 0 is constant"):
         tl.identify(Log(still, "dead"), START, **SILENT)
+
+
+@pytest.mark.parametrize(("said", "wider"), [(0.0, 0.0), (0.0004, 0.0004), (None, 0.001)])
+def test_the_interval_of_a_delay_has_an_offset_of_stamps_that_nobody_knows(said, wider, log, found):
+    """A log whose readings are stamped a step late: the data are those of a delay that is a step longer."""
+    late = replace(log.aligned([n for n in log if n.startswith("measured_")], 0.001), stamp_offset=said)
+    row = tl.identify(late, START, weighed=WEIGHED, **SILENT)["actuators.delay"]
+    own = found["actuators.delay"]
+    assert row.value - own.value == pytest.approx(0.001, abs=2e-5)
+    assert row.half - own.half == pytest.approx(wider, abs=5e-6)
+    assert (row.low < 0.012 < row.high) == (said is None)
+
+
+def test_a_log_whose_stamps_nobody_vouched_for_says_so_and_a_wrong_offset_is_refused(log):
+    unknown = replace(log, stamp_offset=None)
+    (note,) = windows_of(unknown, load_mission(START)).notes
+    assert "interval of the imu, 1 ms: the interval of actuators.delay has it in it" in note
+    assert windows_of(log, load_mission(START)).notes == ()
+    for wrong in (-0.001, 0.2, float("nan"), "0"):
+        with pytest.raises(InputError, match=r"blind: stamp_offset = .*: must be a number from 0 to 0\.1 s"):
+            replace(log, stamp_offset=wrong)

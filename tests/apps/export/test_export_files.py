@@ -165,3 +165,25 @@ def test_the_command_refuses_what_it_cannot_export(arguments, piece, run, tmp_pa
     assert (code, out) == (2, "")
     assert piece in err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_missing_number_is_read_as_a_number_by_readers_of_tables(flight, folder):
+    """`nan` makes the column text in polars; `NaN` is a number to pandas, polars, DuckDB and pyarrow."""
+    path = export(flight, folder / "missing.csv")
+    cells = [line.split(",") for line in path.read_text("utf-8").splitlines()]
+    column = cells[0].index("measured_velocity[m/s].x")
+    assert cells[1 + 3][column] == "NaN"
+    assert "nan" not in {cell for row in cells[1:] for cell in row}
+    pandas, arrow = pytest.importorskip("pandas"), pytest.importorskip("pyarrow.csv")
+    for values in (pandas.read_csv(path).iloc[:, column].to_numpy(), arrow.read_csv(path).column(column).to_numpy()):
+        np.testing.assert_array_equal(values, flight["measured_velocity"][:, 0])
+
+
+@pytest.mark.parametrize("name", ["fl", "flight.npz", "fl.v2"])
+def test_what_save_writes_under_any_name_export_and_logs_read(name, tmp_path, run):
+    flight = tl.fly(tl.load_mission("iris", {"mission.duration": 0.05, "mission.log_interval": 0.001}))
+    assert flight.save(tmp_path / name) == tmp_path / name
+    code, out, err = run("export", name, "--out", "fl.csv")
+    assert (code, err) == (0, "")
+    assert "iris: fl.csv" in out
+    assert tl.read_log(tmp_path / name).rate("measured_rates") == pytest.approx(1000.0)

@@ -60,7 +60,7 @@ def test_the_csv_has_every_number_of_the_metrics_to_the_last_digit(metrics):
             assert [float(text) for text in texts] == value
         elif isinstance(value, float):
             assert float(texts[0]) == value
-    assert (found["wall_contact"], found["rotor_failure_detection_delay_s"]) == (["false"], [""])
+    assert (found["wall_contact"], found["rotor_failure_detection_delay_s"]) == (["false"], ["NaN"])
     assert [(row["component"], row["unit"]) for row in rows if row["metric"] == "command_at_start"] == [
         *[("U1", "N"), ("U2", "N m"), ("U3", "N m"), ("U4", "N m")]
     ]
@@ -88,7 +88,7 @@ def test_every_row_of_the_latex_has_its_cells_and_the_number_on_both_sides_of_th
 def test_flights_stand_side_by_side_and_one_that_lacks_a_metric_has_a_gap(metrics):
     walled = metrics | {"clearance_min_m": 0.25}
     rows = {row["metric"]: row for row in read(metrics_as_csv({"nftsmc": metrics, "a,b": walled}))}
-    assert (rows["clearance_min_m"]["nftsmc"], rows["clearance_min_m"]["a,b"]) == ("", "0.25")
+    assert (rows["clearance_min_m"]["nftsmc"], rows["clearance_min_m"]["a,b"]) == ("NaN", "0.25")
     latex = metrics_as_latex({"nftsmc": metrics, HOSTILE: walled}, "two\nlines")
     assert r"@{}llr@{}lr@{}ll@{}" in latex
     assert latex.startswith("% two lines.")

@@ -7,6 +7,7 @@ import re
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -154,7 +155,11 @@ def with_values(mission: Mission, values: Mapping[str, list[float]]) -> tuple[Mi
 
 
 def rows_of(
-    keys: Mapping[str, tuple[Array, Array, str, Array]], covariance: Array, bound: Array, prior: Array
+    keys: Mapping[str, tuple[Array, Array, str, Array]],
+    covariance: Array,
+    bound: Array,
+    prior: Array,
+    offsets: Mapping[str, float] = MappingProxyType({}),
 ) -> Iterator[Row]:
     """Rows by the delta method.
 
@@ -163,6 +168,7 @@ def rows_of(
         covariance: of the coordinates (P, P).
         bound: the same by the Cramér-Rao bound.
         prior: the same by the priors.
+        offsets: of a key, by how much it may be off whatever the data say.
     """
     for key, (values, J, unit, start) in keys.items():
         for i, value in enumerate(values):
@@ -175,8 +181,8 @@ def rows_of(
             yield Row(
                 name,
                 float(value),
-                float(low),
-                float(high),
+                float(low) - offsets.get(key, 0.0),
+                float(high) + offsets.get(key, 0.0),
                 unit,
                 float(start[i]),
                 bool(own < 0.25 * wide),

@@ -72,8 +72,7 @@ def identify(
         The estimates with intervals of 95 %, and what the logs could not tell.
 
     Raises:
-        InputError: a log lacks a stream, is too short, or cannot be of such a vehicle; or a key
-            cannot be estimated.
+        InputError: a log lacks a stream, is too short or not of such a vehicle; or a key cannot be estimated.
     """
     began, mission = time.perf_counter(), mission_of(mission)
     given = [logs] if isinstance(logs, (Log, Flight)) else list(logs)
@@ -213,7 +212,8 @@ def _results(
     def whole(x: Array) -> dict[str, tuple[Array, str]]:
         return whole_vehicle(table, unknowns.numbers(x).vehicle)
 
-    found = list(rows_of(_with_derivatives(lambda x: _values(unknowns, x), q), *matrices))
+    off = {"actuators.delay": max(part.windows.stamp_offset for part in search.parts)}
+    found = list(rows_of(_with_derivatives(lambda x: _values(unknowns, x), q), *matrices, off))
     changes = dict[str, list[float]]()
     for key, (values, _) in _values(unknowns, q).items():
         kept = np.maximum(values, 0.0) if "drag" in key or "delay" in key else values

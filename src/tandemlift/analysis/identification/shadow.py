@@ -19,7 +19,18 @@ import numpy as np
 from tandemlift.analysis.identification.windows import check_columns
 from tandemlift.analysis.linearization.loop_margins import UNROUNDED
 from tandemlift.analysis.logs.checks import check_log
-from tandemlift.analysis.logs.log import COMMANDS, FLOWN_COMMANDS, IMU, JOINTS, MOTION, PUSH, SOON, SPEED_COMMANDS, Log
+from tandemlift.analysis.logs.log import (
+    COMMANDS,
+    FLOWN_COMMANDS,
+    IMU,
+    JOINTS,
+    MOTION,
+    PUSH,
+    SOON,
+    SPEED_COMMANDS,
+    Log,
+    sample_stamps,
+)
 from tandemlift.core.errors import FlightWarning, InputError
 from tandemlift.core.types import Array, Progress, flat, leaves, unflat
 from tandemlift.missions import Mission, MissionLike, check, merge, mission_of, tables_of
@@ -63,10 +74,10 @@ def shadow(log: Log, mission: MissionLike, *, progress: Progress | None = None) 
     p = plan_of(log, mission)
     body = LogBody(log, p)
     flight = flight_of(p, fly_stepwise(p, p.steps // p.every + 1, p.every, progress, body, lead=body.lead), ENGINE)
-    if body.flown is None:
-        return flight
-    flown = body.flown[: p.steps + 1 : p.every][: len(flight.time)]
-    return replace(flight, channels={**flight.channels, FLOWN_COMMANDS: flown})
+    more = sample_stamps(log, flight)
+    if body.flown is not None:
+        more[FLOWN_COMMANDS] = body.flown[: p.steps + 1 : p.every][: len(flight.time)]
+    return replace(flight, channels={**flight.channels, **more})
 
 
 class LogBody:

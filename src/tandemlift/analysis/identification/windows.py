@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.analysis.logs import log as logs
 from tandemlift.analysis.logs.checks import check_log
 from tandemlift.analysis.logs.clocks import GAP
 from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, PUSH, SPEED_COMMANDS, Log, Stream
@@ -68,6 +69,7 @@ class FlightWindows:
         samples: by stream.
         floor: the height z [m], in the log, of a floor with ground effect; None without.
         notes: what was found and changed, in sentences.
+        stamp_offset: how far [s] stamps of commands and of readings may be off from each other.
     """
 
     source: str
@@ -82,6 +84,7 @@ class FlightWindows:
     samples: dict[str, Samples]
     floor: float | None = None
     notes: tuple[str, ...] = ()
+    stamp_offset: float = 0.0
 
     def times(self) -> Array:
         """The time [s] at which each window begins."""
@@ -141,7 +144,8 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
             f"{log.source}: commands and sensors overlap for {max(count, 0) * step:.3g} s; {FEWEST} windows "
             f"of {length:g} s are needed, after {SETTLING + LONGEST_DELAY:g} s for delay and lag of the rotors"
         )
-    notes += _early_ends(ends, log.source, length)
+    offset, said = logs.unknown_offset(log, interval)
+    notes += _early_ends(ends, log.source, length) + said
     cut = FlightWindows(log.source, step, begin, count, firsts, steps, block, commands, np.zeros((count, 6)), {})
     amid = begin + (np.arange(count) + 0.5) * step
     for name, place in zip(PUSH, (slice(0, 3), slice(3, 6)), strict=True):
@@ -157,7 +161,7 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
             f"{usable.sum()} windows; {FEWEST} are needed"
         )
     lowest = float(log[MOTION[0]].values[:, 2].min())
-    return replace(cut.chosen(usable), floor=_floor(mission, rested, lowest), notes=notes)
+    return replace(cut.chosen(usable), floor=_floor(mission, rested, lowest), notes=notes, stamp_offset=offset)
 
 
 def _without_held(log: Log) -> tuple[Log, tuple[str, ...]]:

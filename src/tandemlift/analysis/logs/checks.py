@@ -9,13 +9,16 @@ an order with which the streams agree. Where the vehicle hardly moved, nothing i
 from __future__ import annotations
 
 import math
+import warnings
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
 from tandemlift.analysis.logs.clocks import NOTHING_TOLD, SPAN, TOLD, SourceClock, fitted_clock, means_of, turn_windows
 from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, Log, Stream, rotated
-from tandemlift.core.errors import InputError
+from tandemlift.core.errors import FlightWarning, InputError
 from tandemlift.core.types import GRAVITY
+from tandemlift.flight.channels import stamp_of
 
 POSITION, VELOCITY, ATTITUDE = MOTION
 FORCE, RATES = IMU
@@ -46,6 +49,24 @@ OTHERWISE = {
     (RATES, "of front, right, down: scale = [1, -1, -1]"): (*UNCHANGED, [1.0, -1.0, -1.0]),
     (RATES, "of the other sign: scale = -1"): (*UNCHANGED, [-1.0] * 3),
 }
+
+
+def check_stamps(source: str, columns: Iterable[str], times: Mapping[str, object]) -> None:
+    """Warn of readings in a table of our own that a map stamps with the times of its rows, later than their sampling.
+
+    Args:
+        source: of the table.
+        columns: of it.
+        times: the column of stamps of each stream.
+    """
+    known, late = {column.partition("[")[0]: column for column in columns}, list[str]()
+    for name, time in times.items():
+        own = known.get(stamp_of(name))
+        if own and time == known.get("time"):
+            late.append(f'{name} (time = "{own}")')
+    if late:
+        said = "the map stamps readings with the times of rows, at which the pilot has them. They were taken earlier"
+        warnings.warn(FlightWarning(f"{source}: {said}: {', '.join(late)}"), stacklevel=4)
 
 
 def check_log(log: Log) -> None:

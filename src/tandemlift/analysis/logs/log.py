@@ -18,17 +18,19 @@ import numpy as np
 
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.types import Array
-from tandemlift.flight.channels import FLOWN, OTHER, Channel, channel_of
+from tandemlift.flight.channels import FLOWN, OTHER, STAMP, Channel, channel_of, stamp_of
 from tandemlift.flight.record import Flight
 
 COMMANDS, SPEED_COMMANDS, FLOWN_COMMANDS = "rotor_commands", "rotor_speed_commands", FLOWN
 IMU = ("measured_specific_force", "measured_rates")
 JOINTS = ("measured_joint_force", "measured_joint_torque")
 MOTION = ("measured_position", "measured_velocity", "measured_attitude")
-PUSH = ("push_force", "push_moment")
+PUSH = ("push_force", "push_moment_at_origin")
+BEFORE = {"push_moment": PUSH[1]}  # names of version 1.0, and those in their place
 STREAMS = (*IMU, *JOINTS, *MOTION, COMMANDS, SPEED_COMMANDS, *PUSH)
 """The streams that readers know; a log may have others, by names of channels."""
 
+LARGEST_OFFSET = 0.1  # s, of stamps
 SOON = 1e-6  # s: a stamp that much later than a time still counts as it
 PER = {"": 1, "quadrotor": 1, "rotor": 4}  # the number of columns of a stream is a multiple of its width times this
 
@@ -88,6 +90,7 @@ class Log(Mapping[str, Stream]):
         streams: by name; at least one.
         source: file or flight that it came from, for messages.
         notes: what was found and changed since it was read, a line each.
+        stamp_offset: how far [s] stamps of readings may be off from those of commands; None if nobody said it.
 
     Raises:
         InputError: a stream is unknown or empty, has another width, a number that is not finite, or a stamp that is not
@@ -97,11 +100,17 @@ class Log(Mapping[str, Stream]):
     streams: Mapping[str, Stream]
     source: str = "log"
     notes: tuple[str, ...] = ()
+    stamp_offset: float | None = None
 
     def __post_init__(self) -> None:
+        off = 0.0 if self.stamp_offset is None else self.stamp_offset
+        if not isinstance(off, int | float) or not 0.0 <= off <= LARGEST_OFFSET:
+            raise InputError(f"{self.source}: stamp_offset = {off!r}: must be a number from 0 to {LARGEST_OFFSET:g} s")
         if not self.streams:
             raise InputError(f"{self.source}: has no stream; known are {', '.join(STREAMS)}")
-        streams = {name: self._checked(name, *stream) for name, stream in self.streams.items()}
+        streams = {BEFORE.get(name, name): self._checked(name, *stream) for name, stream in self.streams.items()}
+        old = [f"{name} of a log is now called {new}" for name, new in BEFORE.items() if name in self.streams]
+        object.__setattr__(self, "notes", (*self.notes, *old))
         object.__setattr__(self, "streams", streams)
 
     def _checked(self, name: str, time: Any, values: Any) -> Stream:
@@ -128,6 +137,7 @@ class Log(Mapping[str, Stream]):
         return Stream(time, values)
 
     def __getitem__(self, name: str) -> Stream:
+        name = BEFORE.get(name, name)
         if name not in self.streams:
             raise KeyError(f"{self.source} has no stream {name!r}; it has {', '.join(self.streams)}")
         return self.streams[name]
@@ -202,12 +212,31 @@ class Log(Mapping[str, Stream]):
         return self.mapped(moved)
 
 
+def unknown_offset(log: Log, interval: float) -> tuple[float, tuple[str, ...]]:
+    """(How far stamps of readings may be off from those of commands [s], and a sentence about it if nobody said it).
+
+    A logger that stamps a sample when it arrives, or with its cycle, is off by about an interval of the samples. Data
+    do not tell this from a delay of the commands.
+    """
+    if log.stamp_offset is not None:
+        return log.stamp_offset, ()
+    off = f"off from their sampling by an interval of the imu, {1e3 * interval:.3g} ms: the interval of actuators.delay"
+    known = "has it in it. If they are exact, say stamp_offset = 0 in the map"
+    return interval, (f"{log.source}: Stamps of readings may be {off} {known}.",)
+
+
+def sample_stamps(log: Log, flight: Flight) -> dict[str, Array]:
+    """The stamps (T,) [s] of the log's samples that a shadow's sensors read, by the channel of the stamps."""
+    names = {stamp: name for stamp, (name, *_) in STAMP.items() if stamp in flight and name in log}
+    return {stamp: Stream(log[name].time, log[name].time).at(flight[stamp]) for stamp, name in names.items()}
+
+
 def log_of(flight: Flight) -> Log:
     """The log that a vehicle would have written in a flight with sensors.
 
-    Readings have the times at which their sensor sampled; in the channels the pilot has them a step later, or more with
-    delays. The first reading is the one with which the pilot starts, stamped one interval before the first sample.
-    Thrusts that ideal rotors produce are their commands. The moment of the push is about the payload's origin.
+    Readings have their stamps in the flight, as `imu_stamp`, and not the times at which the pilot has them. The first
+    reading is the one with which the pilot starts, stamped one interval before the first sample. Thrusts that ideal
+    rotors produce are their commands.
 
     Raises:
         InputError: the flight has no sensors.
@@ -216,34 +245,16 @@ def log_of(flight: Flight) -> Log:
         raise InputError(f'flight {flight.name}: has no readings: fly it with sensors.model = "simulated"')
     streams = {}
     for name in (n for n in flight if n.startswith("measured_")):
-        steps = sampled_steps(flight, name)
-        rows = np.flatnonzero(np.diff(steps, prepend=steps[0] - 1))
-        streams[name] = Stream(steps[rows] * flight.mission["mission"]["step"], flight[name][rows])
+        stamps = flight[stamp_of(name)]
+        rows = np.isfinite(stamps) & (np.diff(stamps, prepend=np.nan) != 0.0)
+        streams[name] = Stream(stamps[rows], flight[name][rows])
     commands = flight[COMMANDS if COMMANDS in flight else "rotor_thrusts"]
     rotors = [q for q in flight.vehicle.quadrotors for _ in range(4)]
     k, most = np.array([q.thrust_constant for q in rotors]), np.array([q.thrust_limit for q in rotors])
     streams[COMMANDS] = Stream(flight.time, commands)
     streams[SPEED_COMMANDS] = Stream(flight.time, np.sqrt(np.clip(commands, 0.0, most) / k))
-    force, moment = (flight[name] for name in PUSH)
+    force, moment = flight["push_force"], flight["push_moment"]
     streams[PUSH[0]] = Stream(flight.time, force)
     in_body = rotated(conjugate(flight["attitude"]), force)
     streams[PUSH[1]] = Stream(flight.time, moment + np.cross(flight.vehicle.center_of_mass, in_body))
-    return Log(streams, flight.name)
-
-
-def sampled_steps(flight: Flight, name: str) -> np.ndarray:
-    """The steps (T,) at which the readings in the rows of a flight were sampled.
-
-    Before the first sample of a device, it is one interval before that.
-    """
-    step, sensors = flight.mission["mission"]["step"], flight.mission["sensors"]
-    added = {f"measured_{sensor['name']}": sensor for sensor in sensors["additional"]}
-    device = sensors["motion"] if name in MOTION else added.get(name, sensors)
-
-    def last(clock: Mapping[str, Any], steps: np.ndarray) -> np.ndarray:
-        period, first = max(1, round(clock["interval"] / step)), round(clock["first_sample"] / step)
-        return first + np.maximum((steps - first) // period, -1) * period
-
-    sampled = last(device, np.round(flight.time / step).astype(int) - 1 - round(device["delay"] / step))
-    joints = sensors["joints"]
-    return last(joints, sampled) if name in JOINTS and joints.get("interval") is not None else sampled
+    return Log(streams, flight.name, stamp_offset=0.0)

@@ -26,7 +26,7 @@ from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.files import DATA
 from tandemlift.core.types import Array, Progress
 from tandemlift.flight.corridor_score import score_of
-from tandemlift.flight.record import Flight
+from tandemlift.flight.record import Flight, moment_of
 from tandemlift.parts.controllers.registry import error_text
 
 AT_ONCE = 4  # flights in memory
@@ -124,13 +124,9 @@ def of_function(observer: Callable[..., Any], flight: Flight) -> Row:
     found, early = _called(observer, table), _called(observer, table.iloc[:half].copy())
     if not np.allclose(found[:half][used[:half]], early[used[:half]], rtol=0.0, atol=1e-6):
         raise InputError("observer() is not causal: its estimates change when the rows after them are left out")
-    error = found - np.hstack([flight["push_force"], flight["push_moment"]])[:, : found.shape[1]]
-    if error.shape[1] == 6:  # about the payload's centre of mass, as of a law
-        w, axis = flight["attitude"][:, :1], flight["attitude"][:, 1:]
-        turn = np.cross(axis, error[:, :3])
-        force = error[:, :3] + 2.0 * (np.cross(axis, turn) - w * turn)  # in body axes
-        error[:, 3:] -= np.cross(flight.vehicle.payload_center, force)
-    error = error[used]
+    error = (found - np.hstack([flight["push_force"], flight["push_moment"]])[:, : found.shape[1]])[used]
+    if error.shape[1] > 3:  # the metric of moments is about the payload's centre of mass
+        error[:, 3:] -= moment_of(flight.vehicle.payload_center, flight["attitude"][used], error[:, :3])
     rmse = [math.sqrt(math.fsum(axis**2) / len(axis)) for axis in error.T]
     change = np.diff(flight["push_force"], axis=0, prepend=0.0)[used]
     along, square = math.fsum((error[:, :3] * change).ravel()), math.fsum((change**2).ravel())

@@ -7,11 +7,11 @@ replaces theirs stream by stream.
 
 from __future__ import annotations
 
-import csv
 import math
 import os
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from functools import reduce
 from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple
@@ -20,14 +20,16 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, ValidationError
 
+from tandemlift.analysis.logs.checks import check_stamps
 from tandemlift.analysis.logs.clocks import GAP, synchronised
 from tandemlift.analysis.logs.log import MOTION, Log, Stream, log_of, stream_channel, without_repeats
 from tandemlift.apps.export.coordinate_frames import to_world
+from tandemlift.apps.export.csv_file import read_csv
 from tandemlift.apps.export.messages import SECOND
 from tandemlift.apps.export.reading import BASE, read_bag, reading_bag, stamp_of
 from tandemlift.apps.export.topics import MISSION
 from tandemlift.core.errors import InputError, extra, shown, unknown
-from tandemlift.core.files import DATA, FLIGHT_FILE, toml_tables
+from tandemlift.core.files import DATA, FLIGHT_FILE, is_flight_file, toml_tables
 from tandemlift.core.keys import Table
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
@@ -41,7 +43,7 @@ UNITS |= {"mm": ("m", 1e-3), "mm/s": ("m/s", 1e-3), "ms": ("s", 1e-3), "us": ("s
 
 Map = Mapping[str, Any]
 TIME = "time"  # the column of a bag's topic with the stamps of its messages [s], from the first one of all
-OF_ALL = ("time", "time_unit")  # keys that a map may give for all streams at once
+OF_ALL, OFFSET = ("time", "time_unit"), "stamp_offset"  # keys of all streams at once, and of the log
 
 
 class Way(Table):
@@ -87,21 +89,24 @@ def read_log(
     Raises:
         InputError: the file cannot be read, a package is missing, or a column or topic of the map is not there.
     """
-    read = _read(Path(path), columns)
+    own = columns if isinstance(columns, Mapping) else _map_in(Path(columns)) if columns else {}
+    read = _read(Path(path), own)
+    read = replace(read, stamp_offset=own[OFFSET]) if OFFSET in own else read
     return synchronised(read) if align else read
 
 
-def _read(path: Path, columns: Map | str | os.PathLike[str] | None) -> Log:
+def _read(path: Path, own: Map) -> Log:
     kind = path.suffix.lower()
     known = _map_in(DATA / "logs" / f"{'ulog' if kind == '.ulg' else 'bag'}.toml")
-    own = columns if isinstance(columns, Mapping) else _map_in(Path(columns)) if columns else {}
     given = _ways({key: known[key] for key in OF_ALL if key in known} | dict(own))
-    if kind == ".npz" or (path / FLIGHT_FILE).is_file():
+    if is_flight_file(path) or (path / FLIGHT_FILE).is_file():
         return log_of(Flight.load(path))
     if kind == ".csv":
         if not given:
             raise InputError(f"{path}: needs a map of its columns to streams; see docs/how-to/log-a-vehicle.md")
-        return _log(path, csv_table(path), given, given)
+        table = csv_table(path)
+        check_stamps(str(path), table.columns(""), {name: ways[0].time for name, ways in given.items()})
+        return _log(path, table, given, given)
     if kind == ".ulg":
         return _log(path, ulog_tables(path), _ways(known) | given, given)
     if kind not in (".bag", ".mcap") and not path.is_dir():
@@ -126,7 +131,7 @@ def _ways(given: Map) -> dict[str, list[Way]]:
     return {
         name: [_way(name, common, table) for table in (tables if isinstance(tables, list) else [tables])]
         for name, tables in given.items()
-        if name not in common
+        if name not in common and name != OFFSET
     }
 
 
@@ -241,13 +246,8 @@ class LogTables(NamedTuple):
 
 def csv_table(path: Path) -> LogTables:
     """A table in a file: a line of names, then numbers; an empty cell is none."""
-    with path.open(encoding="utf-8-sig", newline="") as file:
-        lines = csv.reader(file)
-        names = [name.strip() for name in next(lines, [])]
-        rows = [_numbers(f"{path}: line {i}", names, cells) for i, cells in enumerate(lines, 2) if cells]
-    if not rows:
-        raise InputError(f"{path}: has no line of numbers below the line of names")
-    table = dict(zip(names, np.array(rows).reshape(len(rows), len(names)).T, strict=True))
+    names, columns = read_csv(path)
+    table = dict(zip(names, columns, strict=True))
 
     def column(_: str, name: str) -> Array:
         if names.count(name) > 1:
@@ -255,15 +255,6 @@ def csv_table(path: Path) -> LogTables:
         return table[name]
 
     return LogTables([""], lambda _: table, column)
-
-
-def _numbers(place: str, names: list[str], cells: list[str]) -> list[float]:
-    if len(cells) != len(names):
-        raise InputError(f"{place} has {len(cells)} cells, the first line {len(names)}")
-    try:
-        return [float(cell) if cell.strip() else math.nan for cell in cells]
-    except ValueError as error:
-        raise InputError(f"{place}: {error}") from None
 
 
 def ulog_tables(path: Path) -> LogTables:

@@ -1,7 +1,8 @@
 """Reads a flight from a bag: one that `export` wrote, or a recording of our topics during a flight.
 
 Samples are those of `/tandemlift/odometry`, by the stamps of its messages. Of another topic a sample has the message of
-the same stamp, or else, if that was lost, the last one before it.
+the same stamp, or else, if that was lost, the last one before it. Messages of readings have the times at which they
+were taken: a sample has the last one that the pilot had, by the delays of the mission's sensors.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from tandemlift.core.errors import InputError, extra
 from tandemlift.core.files import toml_tables
 from tandemlift.core.types import Array
 from tandemlift.flight.channels import CHANNELS
+from tandemlift.flight.reading_stamps import reading_stamps
 from tandemlift.flight.record import LATE, Flight
 from tandemlift.missions import check_keys
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -57,7 +59,7 @@ def _flight(path: Path, said: dict[str, Stamped]) -> Flight:
     mission = _mission(path, said[topics.MISSION.name])
     time = (stamps - stamps[0]) / SECOND
     vehicle = Vehicle.from_mission(mission)
-    channels = _channels(said, stamps, vehicle)
+    channels = _channels(said, stamps, vehicle, mission)
     missing = [name for recipe in topics.ALWAYS for name in recipe.needs if name not in channels]
     if missing:
         raise InputError(f"{path}: lacks the topics of {', '.join(missing)}, which every flight has")
@@ -145,33 +147,55 @@ def stamp_of(message: Any, at: int) -> int:
     return header.stamp.sec * SECOND + header.stamp.nanosec if header else at
 
 
-def _channels(said: dict[str, Stamped], stamps: Array, vehicle: Vehicle) -> dict[str, Array]:
+def _channels(said: dict[str, Stamped], stamps: Array, vehicle: Vehicle, mission: dict[str, Any]) -> dict[str, Array]:
     """The channels of all topics that there are."""
     there = {name for r in (*topics.ALWAYS, *topics.SOMETIMES) if said[f"{topics.ROOT}/{r.name}"] for name in r.needs}
     there |= set(topics.JOINTS[1][1:3]) if said[f"{topics.ROOT}/joint_1/measured"] else set()
     there |= {name.partition(".")[0] for m in list(said[VALUES].values())[:1] for name in m.name} & {*topics.PILOT}
     parts: dict[str, list[Array]] = defaultdict(list)
-    seen = MeasuredPose(np.zeros((0, 4)), vehicle)
+    seen, stamped = MeasuredPose(np.zeros((0, 4))), dict[str, Array]()
     for recipe in topics.all_recipes(there, vehicle):
-        if not said[f"{topics.ROOT}/{recipe.name}"]:
+        own = said[f"{topics.ROOT}/{recipe.name}"]
+        if not own:
             continue
-        found = recipe.back(_rows(recipe, said[f"{topics.ROOT}/{recipe.name}"], stamps), seen)
+        late = recipe.stamp and max(own) < stamps[-1]  # in bags of version 1.0, readings have the stamps of samples
+        rows, taken = _rows(recipe, own, _until(recipe.stamp, stamps, mission, stamped) if late else stamps, stamps[0])
+        found = recipe.back(rows, seen)
         seen = seen._replace(attitude=found["attitude"]) if "attitude" in found else seen
+        if late:
+            stamped[recipe.stamp] = (taken - stamps[0]) / SECOND
         for name, values in found.items():
             parts[name].append(values)
-    return {"euler": eulers(seen.attitude)} | {
-        name: np.hstack(p) if "joint_" in name else p[0] for name, p in parts.items()
+    channels = {name: np.hstack(p) if "joint_" in name else p[0] for name, p in parts.items()}
+    return {
+        "euler": eulers(seen.attitude),
+        **reading_stamps(mission, (stamps - stamps[0]) / SECOND, channels),
+        **stamped,
+        **channels,
     }
 
 
-def _rows(recipe: Recipe, said: Stamped, stamps: Array) -> Array:
-    """The numbers of a topic at some stamps; NaN before its first message."""
+def _until(stamp: str, stamps: Array, mission: dict[str, Any], known: dict[str, Array]) -> Array:
+    """The latest stamps [ns] of the messages that the pilot had at some samples; `known`: stamps of readings [s]."""
+    sensors, step = mission["sensors"], mission["mission"]["step"]
+    if stamp == "joints_stamp" and "imu_stamp" in known:  # a sample of the imu has brought the last one of theirs
+        return stamps[0] + np.nan_to_num((known["imu_stamp"] + 0.5 * step) * SECOND, nan=-np.inf)
+    delay = (sensors["motion"] if stamp == "motion_stamp" else sensors)["delay"]
+    return np.asarray(stamps - round((0.5 + round(delay / step)) * step * SECOND))
+
+
+def _rows(recipe: Recipe, said: Stamped, until: Array, first: int) -> tuple[Array, Array]:
+    """The numbers of a topic's last message until some stamps, and its stamp; NaN before the first message.
+
+    A first message of before the first sample, `first`, is the reading with which the pilot starts.
+    """
     own = np.array(sorted(said))
     numbers = np.array([_numbers(recipe, said[stamp]) for stamp in own.tolist()], dtype=np.float64)
-    last = np.searchsorted(own, stamps, side="right") - 1
-    rows = numbers[np.maximum(last, 0)]
+    last = np.searchsorted(own, until, side="right") - 1
+    last = last if own[0] >= first else np.maximum(last, 0)  # of the start, whatever the delay
+    rows, at = numbers[np.maximum(last, 0)], np.where(last < 0, np.nan, own[np.maximum(last, 0)])
     rows[last < 0] = np.nan
-    return rows
+    return rows, at
 
 
 def _numbers(recipe: Recipe, message: Any) -> list[float]:

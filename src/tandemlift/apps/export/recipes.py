@@ -29,6 +29,8 @@ class Topic(NamedTuple):
         frame: in which they are.
         rows: the numbers of each message (T, n), in the order of `messages.py`.
         labels: of these numbers, where the message names them.
+        stamps: the flight's times [s] of the messages' headers (T,); None for those of the samples. A message whose
+            stamp is that of the one before it is left out.
     """
 
     name: str
@@ -36,6 +38,7 @@ class Topic(NamedTuple):
     frame: str
     rows: Array
     labels: tuple[str, ...] = ()
+    stamps: Array | None = None
 
 
 class Source:
@@ -69,10 +72,9 @@ class Source:
 
 
 class MeasuredPose(NamedTuple):
-    """The data that turn numbers of messages back into channels: the vehicle and its attitudes (T, 4)."""
+    """The data that turn numbers of messages back into channels: the vehicle's attitudes (T, 4)."""
 
     attitude: Array
-    vehicle: Vehicle
 
 
 Back = Callable[[Array, MeasuredPose], dict[str, Array]]
@@ -90,6 +92,7 @@ class Recipe(NamedTuple):
         back: the channels by name from these numbers; of a joint, its part of them.
         labels: of these numbers, where the message names them.
         meaning: a short description for docs/reference/topics.md.
+        stamp: the channel with the times at which a sensor took the numbers; "" for the times of the samples.
     """
 
     name: str
@@ -100,6 +103,7 @@ class Recipe(NamedTuple):
     back: Back
     labels: tuple[str, ...] = ()
     meaning: str = ""
+    stamp: str = ""
 
     def described(self, meaning: str) -> Recipe:
         """The same recipe with a meaning."""
@@ -124,6 +128,21 @@ def force(name: str, channel: str) -> Recipe:
     return Recipe(name, WRENCH, frames.ALIGNED, (channel,), rows, lambda rows, _: {channel: rows[:, :3]})
 
 
+def motion_readings(name: str) -> Recipe:
+    """Readings of the motion measurement as odometry, whose angular velocity is NaN: it reads none."""
+    both = odometry(name, "measured_")
+    needs = both.needs[:3]
+
+    def rows(take: Source) -> Array:
+        position, attitude, velocity = map(take, needs)
+        return np.hstack([position, attitude, frames.to_body(attitude, velocity), np.full((len(position), 3), np.nan)])
+
+    def back(rows: Array, seen: MeasuredPose) -> dict[str, Array]:
+        return {name: values for name, values in both.back(rows, seen).items() if name in needs}
+
+    return both._replace(needs=needs, rows=rows, back=back, stamp="motion_stamp")
+
+
 def odometry(name: str, prefix: str = "") -> Recipe:
     """Pose in the world, and velocities in body axes, as the message defines them."""
     needs = tuple(prefix + c for c in ("position", "attitude", "velocity", "rates"))
@@ -140,22 +159,15 @@ def odometry(name: str, prefix: str = "") -> Recipe:
     return Recipe(name, ODOMETRY, frames.WORLD, needs, rows, back)
 
 
-def wrench(name: str, force: str, moment: str, at: Callable[[Vehicle], Array] | None = None) -> Recipe:
-    """A force in world axes and a moment in body axes, as a wrench in world axes at the vehicle's centre of mass.
-
-    `at` gives the point that the moment is about [m, body axes, from the centre of mass]; without it, that centre.
-    """
-
-    def lever(attitude: Array, vehicle: Vehicle, f: Array) -> Array:
-        return np.cross(frames.to_world(attitude, np.broadcast_to(at(vehicle), f.shape)), f) if at else np.zeros_like(f)
+def wrench(name: str, force: str, moment: str) -> Recipe:
+    """A force in world axes and a moment in body axes, as a wrench in world axes at the vehicle's centre of mass."""
 
     def rows(take: Source) -> Array:
         f, m, attitude = map(take, (force, moment, "attitude"))
-        return np.hstack([f, frames.to_world(attitude, m) + lever(attitude, take.vehicle, f)])
+        return np.hstack([f, frames.to_world(attitude, m)])
 
     def back(rows: Array, seen: MeasuredPose) -> dict[str, Array]:
-        f, m = rows[:, :3], rows[:, 3:]
-        return {force: f, moment: frames.to_body(seen.attitude, m - lever(seen.attitude, seen.vehicle, f))}
+        return {force: rows[:, :3], moment: frames.to_body(seen.attitude, rows[:, 3:])}
 
     return Recipe(name, WRENCH, frames.ALIGNED, (force, moment, "attitude"), rows, back)
 

@@ -22,13 +22,14 @@ from tandemlift.apps.export.recipes import (
     command,
     force,
     joint_wrench,
+    motion_readings,
     odometry,
     point_on_beam,
     pose_of_reference,
     values,
     wrench,
 )
-from tandemlift.flight.channels import CHANNELS
+from tandemlift.flight.channels import CHANNELS, STAMP
 from tandemlift.flight.record import Flight
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
@@ -83,7 +84,7 @@ SOMETIMES = (
         "part of the command that the rotors give within their limits"
     ),
     force("push/measured", "push_measured").described("from the latest joint readings; a force alone"),
-    wrench("push/estimated", "push_estimate", "push_moment_estimate", lambda v: v.payload_center).described(
+    wrench("push/estimated", "push_estimate", "push_moment_estimate").described(
         "after the low-pass filter; its moment, as that of `push/true`, about the vehicle's centre of mass"
     ),
     force("push/filtered", "push_filtered").described(
@@ -91,22 +92,34 @@ SOMETIMES = (
     ),
     point_on_beam("push/point", "push_point_estimate").described("place of the push on the beam"),
     wrench("disturbance", "disturbance_force", "disturbance_moment").described("estimate of the disturbance observer"),
-    odometry("measured/odometry", "measured_").described("readings of motion measurement and gyroscope"),
-    as_recorded("measured/imu", IMU, PAYLOAD, "measured_rates", "measured_specific_force").described(
-        "readings; its covariance says that it has no orientation"
+    motion_readings("measured/odometry").described(
+        "readings of the motion measurement, which reads no angular velocity (NaN); stamped when it took them"
     ),
-    odometry("estimated/odometry", "estimated_").described("the pilot's estimate"),
+    as_recorded("measured/imu", IMU, PAYLOAD, "measured_rates", "measured_specific_force")
+    ._replace(stamp="imu_stamp")
+    .described("readings, stamped when the imu took them; its covariance says that it has no orientation"),
+    odometry("estimated/odometry", "estimated_").described("the pilot's estimate, stamped when it uses it"),
     as_recorded("wind/velocity", VECTOR, WORLD, "wind_velocity").described("velocity of the air [m/s]"),
     force("wind/force", "wind_force").described("force of the air on all parts together; a force alone"),
     force("contact/force", "contact_force").described("force of floor and walls; a force alone"),
 )
 JOINTS = (
     ("wrench", "joint_force", "joint_torque", "force and torque of the quadrotor on the payload"),
-    ("measured", "measured_joint_force", "measured_joint_torque", "readings of the force sensor there"),
+    (
+        "measured",
+        "measured_joint_force",
+        "measured_joint_torque",
+        "readings of the force sensor there, stamped when it took them",
+    ),
 )
-ELSEWHERE = {"euler"}.union(*(recipe.needs for recipe in (*ALWAYS, *SOMETIMES)), *(names[1:3] for names in JOINTS))
+ELSEWHERE = {"euler", *STAMP}.union(
+    *(recipe.needs for recipe in (*ALWAYS, *SOMETIMES)), *(names[1:3] for names in JOINTS)
+)
 PILOT = tuple(name for name in CHANNELS if name not in ELSEWHERE)
-"""Channels without a topic of their own, which topic `pilot` has by their names; `euler` repeats `attitude`."""
+"""Channels without a topic of their own, which topic `pilot` has by their names.
+
+`euler` repeats `attitude`, and stamps of readings are in the headers.
+"""
 
 
 def all_recipes(has: Container[str], vehicle: Vehicle) -> Iterator[Recipe]:
@@ -114,6 +127,7 @@ def all_recipes(has: Container[str], vehicle: Vehicle) -> Iterator[Recipe]:
     yield from ALWAYS
     numbers = range(1, vehicle.count + 1)
     true, measured = ([joint_wrench(i, *names).described(what) for i in numbers] for *names, what in JOINTS)
+    measured = [r._replace(stamp="joints_stamp") for r in measured]
     yield from true
     yield from (r for r in (*SOMETIMES, *measured) if all(name in has for name in r.needs))
     if known := tuple(name for name in PILOT if name in has):
@@ -136,4 +150,7 @@ def topics_from(flight: Flight, vehicle: Vehicle) -> list[Topic]:
         InputError: the flight lacks a channel that every flight has, or one is of a wrong size.
     """
     take = Source(flight, vehicle)
-    return [Topic(r.name, r.kind, r.frame, r.rows(take), r.labels) for r in recipes_for(flight, vehicle)]
+    return [
+        Topic(r.name, r.kind, r.frame, r.rows(take), r.labels, flight.get(r.stamp))
+        for r in recipes_for(flight, vehicle)
+    ]

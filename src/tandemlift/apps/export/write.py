@@ -2,8 +2,9 @@
 
 Both bags hold the same topics, `topics.py`; a table holds every channel. A message's stamp, and its place in the bag,
 is the time of the flight plus one second: in ROS a stamp of zero means that there is none, and a ROS 1 bag's player
-leaves such messages out. A mission becomes a world of Gazebo (SDF) or a MuJoCo model (MJCF). The same flight or mission
-gives the same bytes, with the same versions of the packages that write them.
+leaves such messages out. A reading is in its place when the pilot has it, and its stamp is when the sensor took it.
+A mission becomes a world of Gazebo (SDF) or a MuJoCo model (MJCF). The same flight or mission gives the same bytes,
+with the same versions of the packages that write them.
 """
 
 from __future__ import annotations
@@ -66,13 +67,19 @@ def streams_from(flight: Flight, types: MessageTypes) -> list[TopicStream]:
         TopicStream(TF_STATIC.name, TF_STATIC.kind, [(START, transforms.fixed(START, list(fixed(vehicle))))], True),
         TopicStream(TF.name, TF.kind, _made(stamps, place, transforms.moving)),
         *[TopicStream(DIAGNOSTICS.name, DIAGNOSTICS.kind, happened)] * bool(happened),
-        *(TopicStream(t.name, t.kind, _made(stamps, t.rows, message_maker(types, t))) for t in topics),
+        *(TopicStream(t.name, t.kind, _made(stamps, t.rows, message_maker(types, t), t.stamps)) for t in topics),
     ]
 
 
-def _made(stamps: list[int], rows: Array, make: Callable[[int, Any], Any]) -> Iterator[tuple[int, Any]]:
-    """The messages of a topic."""
-    return ((at, make(at, row)) for at, row in zip(stamps, rows.tolist(), strict=True))
+def _made(
+    times: list[int], rows: Array, make: Callable[[int, Any], Any], stamps: Array | None = None
+) -> Iterator[tuple[int, Any]]:
+    """The messages of a topic, stamped with their times or with other ones; of readings, one for each sample."""
+    headers, before = times if stamps is None else [stamp(t) if t > -1.0 else 0 for t in stamps.tolist()], 0
+    for at, header, row in zip(times, headers, rows.tolist(), strict=True):
+        if header > 0 and header != before:
+            yield at, make(header, row)
+        before = header
 
 
 def events_from(flight: Flight) -> list[tuple[float, str]]:

@@ -17,7 +17,7 @@ from tandemlift.apps.live.session.session import Session
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.simulation.recorded_flight import RecordedFlight
-from tandemlift.simulation.results import channels_of
+from tandemlift.simulation.results import recorded_channels
 
 MOST = 1000  # samples that may wait; more are forgotten, the oldest first
 
@@ -95,7 +95,7 @@ class SampleQueue:
 def as_flight(taken: SampleBatch, flight: RecordedFlight, tables: dict[str, Any]) -> Flight:
     """Samples as a flight, by which topics are made; `tables`: of its mission."""
     at = np.array(taken.steps) * flight.dt
-    return Flight(at, dict(channels_of(flight.layout, taken.rows)), tables, {})
+    return Flight(at, recorded_channels(flight.layout, taken.rows, tables, at), tables, {})
 
 
 def steps_between_samples(rate: float, dt: float) -> int:

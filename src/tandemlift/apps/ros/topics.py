@@ -58,6 +58,7 @@ class SampleTopics:
 
     def __init__(self, middleware: Middleware, flight: Flight, vehicle: Vehicle) -> None:
         types, self._vehicle = middleware.types, vehicle
+        self._taken = dict[str, float]()  # time of the last reading on a topic
         self._sent = [
             SampleTopic(r, message_maker(types, r), middleware.advertise(r.name, r.kind))
             for r in recipes_for(flight, vehicle)
@@ -68,17 +69,35 @@ class SampleTopics:
             self._clock = middleware.advertise(CLOCK.name, CLOCK.kind)
 
     def publish(self, flight: Flight, stamps: list[int]) -> None:
-        """Publish samples on the topics that have subscribers."""
+        """Publish samples on the topics that have subscribers; of readings, each once, stamped when it was taken."""
         take = Source(flight, self._vehicle)
-        wanted = [(s.channel, s.make, s.recipe.rows(take).tolist()) for s in self._sent if s.channel.wanted]
+        wanted = [
+            (s.channel, s.make, s.recipe.rows(take).tolist(), self._headers(s.recipe, flight, stamps))
+            for s in self._sent
+            if s.channel.wanted
+        ]
         if self._tf.wanted:
             places = np.hstack([flight["position"], flight["attitude"]])
-            wanted.append((self._tf, self._transform, places.tolist()))
+            wanted.append((self._tf, self._transform, places.tolist(), stamps))
         if self._clock and self._clock.wanted:
-            wanted.append((self._clock, self._tick, stamps))
-        for k, stamp in enumerate(stamps):  # one sample after another, so that none of a topic overtakes the one before
-            for channel, make, rows in wanted:
-                channel.publish(make(stamp, rows[k]))
+            wanted.append((self._clock, self._tick, stamps, stamps))
+        for k in range(len(stamps)):  # one sample after another, so that none of a topic overtakes the one before
+            for channel, make, rows, headers in wanted:
+                if headers[k]:
+                    channel.publish(make(headers[k], rows[k]))
+
+    def _headers(self, recipe: Recipe, flight: Flight, stamps: list[int]) -> list[int]:
+        """The stamps of a topic's messages [ns]; 0 for a reading that was published before."""
+        if not recipe.stamp:
+            return stamps
+        taken = flight[recipe.stamp].tolist()
+        before = [self._taken.get(recipe.name), *taken[:-1]]
+        self._taken[recipe.name] = taken[-1]
+        late = [round((now - then) * SECOND) for now, then in zip(flight.time.tolist(), taken, strict=True)]
+        return [
+            stamp - back if then != last else 0
+            for stamp, back, then, last in zip(stamps, late, taken, before, strict=True)
+        ]
 
     def _tick(self, stamp: int, _: object) -> object:
         return self._types[CLOCK.kind](self._types["builtin_interfaces/Time"](*divmod(stamp, SECOND)))

@@ -137,7 +137,8 @@ def metrics_as_csv(flights: MetricsByColumn) -> str:
 
 
 def _plain(value: object) -> str:
-    return "" if value is None else str(value).lower() if isinstance(value, bool) else str(value)
+    missing = value is None or value != value  # not a number
+    return "NaN" if missing else str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def metrics_as_latex(flights: MetricsByColumn, note: str) -> str:

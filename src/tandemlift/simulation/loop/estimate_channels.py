@@ -6,8 +6,9 @@ from typing import NamedTuple
 
 from tandemlift.core.law import choice, law
 from tandemlift.core.types import Number
-from tandemlift.core.vector import Absent, Quat, Vec3
+from tandemlift.core.vector import Absent, Quat, Vec3, apply_transposed, cross
 from tandemlift.parts.estimation.contact_detection import ContactEstimate
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.sensors.readings import Readings, by_name
 from tandemlift.simulation.loop.perception import Estimates
 from tandemlift.simulation.loop.sources import EstimatedFlight
@@ -95,6 +96,7 @@ def estimated_channels(known: EstimatedFlight | Absent) -> EstimatedChannels | A
 @estimated_channels.register(Estimates)
 def _estimates(known: Estimates) -> EstimatedChannels:
     s, p = known.state, known.push
+    arm = cross(known.vehicle.payload, apply_transposed(rotation_from_quaternion(s.attitude), p.force))
     return EstimatedChannels(
         estimated_position=s.position,
         estimated_velocity=s.velocity,
@@ -102,7 +104,7 @@ def _estimates(known: Estimates) -> EstimatedChannels:
         estimated_rates=s.rates,
         push_measured=p.measured + p.withheld,
         push_estimate=p.force,
-        push_moment_estimate=p.moment,
+        push_moment_estimate=p.moment + arm,
         push_point_estimate=p.point,
         payload_mass_estimate=p.payload_mass,
         sensor_disagreement=p.disagreement,

@@ -149,11 +149,11 @@ def json_of(tables: Mapping[Kind, Mapping[str, Scores]]) -> str:
 
 
 def csv_of(tables: Mapping[Kind, Mapping[str, Scores]]) -> str:
-    """Tables as CSV, a line for each value."""
+    """Tables as CSV, a line for each value; NaN for one that is missing."""
     write = csv.writer(text := io.StringIO(), lineterminator="\n").writerow
     write(("kind", "name", "column", "value"))
     for kind, rows in tables.items():
         for name, row in rows.items():
             for title, value in row.items():
-                write((kind, name, title, value))
+                write((kind, name, title, "NaN" if value is None else value))
     return text.getvalue()
