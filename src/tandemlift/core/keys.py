@@ -4,38 +4,11 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Mapping
-from typing import Annotated, Any, NamedTuple, get_args, get_origin
+from typing import Annotated, Any, ClassVar, NamedTuple, get_args, get_origin
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError, core_schema
-
-__all__ = [
-    "AtLeastOne",
-    "AtLeastOne6",
-    "Axes3",
-    "Bandwidth",
-    "Delay",
-    "Exactly3",
-    "Fraction",
-    "KeyDescription",
-    "Length",
-    "NonNegative",
-    "NonNegative3",
-    "NonNegative6",
-    "PerAxis",
-    "Positive",
-    "Positive3",
-    "Positive6",
-    "Scale",
-    "Share",
-    "Size",
-    "Table",
-    "Tilt",
-    "Triple",
-    "description_of",
-    "key",
-]
 
 SMALLEST = 1e-300  # of a divisor: its inverse is finite
 
@@ -66,9 +39,14 @@ Length = Annotated[float, Field(gt=0.0, le=1e3), AfterValidator(divisor)]  # m
 
 
 class Table(BaseModel):
-    """A strict, frozen table of a mission."""
+    """A strict, frozen table of a mission; `acts`: the condition without which no key in it acts, as in `key`."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False, validate_default=True)
+    acts: ClassVar[str] = ""
+
+    def __init_subclass__(cls, *, acts: str | None = None, **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        cls.acts = cls.acts if acts is None else acts
 
     @model_validator(mode="before")
     @classmethod
@@ -141,6 +119,8 @@ class KeyDescription(NamedTuple):
         unset: the effect of leaving the key out, for a key without a default value.
         example: a value for the template, if there is no default or it shows little.
         choices: the meaning of each of its choices.
+        acts: the condition without which it does not act, such as 'wind.model = "air"', 'wind.turbulence > 0' or
+            'person.path is given'; values are joined by " or ", conditions by " and ".
     """
 
     unit: str | None = None
@@ -150,6 +130,7 @@ class KeyDescription(NamedTuple):
     unset: str = ""
     example: Any = None
     choices: Mapping[str, str] = {}
+    acts: str = ""
 
 
 def key(
@@ -162,9 +143,10 @@ def key(
     unset: str = "",
     example: Any = None,
     choices: Mapping[str, str] | None = None,
+    acts: str = "",
 ) -> Any:
     """A field of a table with its `KeyDescription`; `...` as the default makes the key required."""
-    description = KeyDescription(unit, meaning, source, rule, unset, example, choices or {})
+    description = KeyDescription(unit, meaning, source, rule, unset, example, choices or {}, acts)
     return Field(default, description=meaning, json_schema_extra={DESCRIPTION: description._asdict()})
 
 

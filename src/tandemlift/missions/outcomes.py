@@ -40,6 +40,7 @@ class CrashTable(Table):
         "constant of 0.1 s",
         unset="mass times 2 m/s, as in a fall from 0.2 m",
         example=7.0,
+        acts='ground.model = "floor"',
     )
     fence_margin: NonNegative = key(
         1.0,
@@ -47,6 +48,7 @@ class CrashTable(Table):
         "distance by which the vehicle may be outside `supervision.fence`",
         rule='at least `supervision.fence.margin`; effective if supervision.model is "on"',
         source="chosen: gives the supervision time to hold the vehicle",
+        acts='supervision.model = "on"',
     )
     fly_on: NonNegative = key(
         0.0,
@@ -68,7 +70,11 @@ class OutcomeTable(Table):
     )
     landed_speed: Positive = key(0.1, "m/s", "largest speed of a vehicle that has landed", source="chosen")
     landed_height: Positive = key(
-        0.1, "m", "without a floor: largest distance in z from the start after a landing", source="chosen"
+        0.1,
+        "m",
+        "without a floor: largest distance in z from the start after a landing",
+        source="chosen",
+        acts='ground.model = "none"',
     )
 
 
@@ -178,13 +184,18 @@ class FindingsTable(Table):
         3, "1", "consecutive periods that count as an oscillation", source="chosen: two may be a push and its echo"
     )
     saturated_time: Positive = key(
-        1.0, "s", "longest uninterrupted time with a rotor at its limit", source="chosen: built-in missions keep 0.2 s"
+        1.0,
+        "s",
+        "longest uninterrupted time with a rotor at its limit",
+        source="chosen: built-in missions keep 0.2 s",
+        acts='actuators.model = "rotors"',
     )
     saturated_fraction: Fraction = key(
         0.1,
         "1",
         "largest fraction of the flight with a rotor at its limit",
         source="chosen: built-in missions keep 0.02",
+        acts='actuators.model = "rotors"',
     )
     push_time: Positive = key(
         1.0,
@@ -208,7 +219,11 @@ class FindingsTable(Table):
         0.5, "s", "time for which the motion may refute a measured push", source="chosen: longer than an impact"
     )
     reach_time: NonNegative = key(
-        0.1, "s", "time for which the reference may need more thrust than available", source="chosen"
+        0.1,
+        "s",
+        "time for which the reference may need more thrust than available",
+        source="chosen",
+        acts='actuators.model = "rotors"',
     )
     reach_distance: Positive = key(
         2.0,

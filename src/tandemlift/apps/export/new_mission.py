@@ -16,6 +16,7 @@ import numpy as np
 
 from tandemlift.core.errors import written
 from tandemlift.core.files import DATA, toml_tables
+from tandemlift.missions import idle_keys
 from tandemlift.missions.changes import tables_of, value_at
 from tandemlift.missions.key_descriptions import sections
 from tandemlift.missions.loading import load_mission
@@ -112,7 +113,18 @@ def heaviest_words(beam: NewBeam) -> str:
 
 
 def scaled(beam: NewBeam) -> Iterator[tuple[str, str, Any]]:
-    """Keys of forces and moments with units and values, where these differ from those of `iris`."""
+    """Keys of forces and moments with units and values, where these differ from those of `iris`.
+
+    Where these do not act yet, the key that decides is among them, so that the file says so.
+    """
+    found = list(_scaled(beam))
+    resting = {idle.decided_by for idle in idle_keys(_base(), [tuple(key.split(".")) for key, _, _ in found])}
+    order = {key.name: place for place, key in enumerate(key for section in sections() for key in section.keys)}
+    deciding = [(key, "", value_at(tables_of(_base()), tuple(key.split(".")))) for key in resting]
+    yield from sorted([*found, *deciding], key=lambda one: order[one[0]])
+
+
+def _scaled(beam: NewBeam) -> Iterator[tuple[str, str, Any]]:
     base, vehicle, tables = _base().hover.vehicle, beam.mission.hover.vehicle, tables_of(_base())
     force, turning = vehicle.mass / base.mass, np.diag(vehicle.inertia) / np.diag(base.inertia)
     for key in (key for section in sections() for key in section.keys if not key.name.startswith(KEPT)):
@@ -150,7 +162,7 @@ def new_mission(name: str, beam: NewBeam) -> str:
     for key, unit, value in scaled(beam):
         above, _, last = key.rpartition(".")
         text += [f"\n[{above}]"] if above != table else []
-        text, table = [*text, f"{last} = {written(value)}  # {unit}"], above
+        text, table = [*text, f"{last} = {written(value)}{unit and f'  # {unit}'}"], above
     for push, time in PUSHES:
         peak = [float(f"{force * x:.3g}") for x in push]
         text.append(f"\n[[pushes]]\nforce = {peak}  # N, peak\ntime = {time}  # s\nsigma = 0.6  # s")

@@ -29,7 +29,7 @@ NEARLY = 0.75  # of the impulse that ends a flight, as a contact returns some of
 SOFT = 2.0  # times the specified sinkage
 
 
-class GroundTable(Table):
+class GroundTable(Table, acts='ground.model = "floor"'):
     """`[ground]`: a level floor with friction. Feet stand on it; rotors, guards and beam touch it in all attitudes.
 
     A rotor that touches floor or wall stops for the rest of the flight.

@@ -14,7 +14,7 @@ from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.parts.sensors.sensors_table import SensorsTable, noise_scale, steps_of
 
 
-class EstimatorTable(Table):
+class EstimatorTable(Table, acts='sensors.model = "simulated"'):
     """`[estimator]`: the push from the joints' force sensors, and the state from inertial and motion sensors.
 
     The push is the force that accelerates the payload and does not come through a joint: wind on the payload is part of
@@ -114,6 +114,7 @@ class EstimatorTable(Table):
         "rad/s",
         "bandwidth of the low-pass filter on the estimated wind force; lower for noisy joints, higher for gusts",
         source="chosen",
+        acts='estimator.wind_compensation = "quadrotors"',
     )
 
 

@@ -22,7 +22,7 @@ from tandemlift.parts.mechanics.rotation import heading_from, wrap_angle
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
-class YawTable(Table):
+class YawTable(Table, acts='compliance.yaw.model = "compliant"'):
     """`[compliance.yaw]`: rotation of the vehicle by a push beside the centre of mass."""
 
     model: Literal["held", "compliant"] = key(

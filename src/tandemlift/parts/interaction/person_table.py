@@ -48,7 +48,7 @@ class WaypointTable(Table):
     dwell: NonNegative = key(0.0, "s", "time for which the person keeps the vehicle there")
 
 
-class PersonTable(Table):
+class PersonTable(Table, acts='person.model = "pull" or "steer" or "two-hands" or "hold"'):
     """`[person]`: a person in the loop, who sees the vehicle with a delay and leads it by hand along a path.
 
     The person's view is delayed by `delay`. The person predicts the vehicle's present place from it. The desired force
@@ -85,6 +85,7 @@ class PersonTable(Table):
         "m",
         "place where one hand holds the payload, along body y from the payload's centre",
         rule="on the payload",
+        acts='person.model = "pull" or "steer" or "hold"',
     )
     stiffness: Positive = key(10.0, "N/m", "stiffness of the arm between hand and grip", source="chosen: a light hold")
     damping: NonNegative = key(1.0, "N s/m", "damping of the arm between hand and grip", source="chosen: a light hold")
@@ -105,7 +106,9 @@ class PersonTable(Table):
         source="band: Elble and Randall, 1978; size chosen",
     )
     max_force: Positive = key(8.0, "N", "largest force of the person", source="chosen")
-    max_couple: NonNegative = key(0.8, "N m", "largest couple of two hands about the vertical", source="chosen")
+    max_couple: NonNegative = key(
+        0.8, "N m", "largest couple of two hands about the vertical", source="chosen", acts='person.model = "two-hands"'
+    )
     speed: Positive = key(
         1.0, "m/s", "desired speed; the vehicle is slower, because the force needs a missing speed", source="chosen"
     )
@@ -133,8 +136,16 @@ class PersonTable(Table):
     landing_speed: Positive = key(
         0.1, "m/s", "speed at the last waypoint below which the person requests a landing", source="chosen"
     )
-    yaw_gain: NonNegative = key(1.5, "N m/rad", "couple of two hands for each rad of heading error", source="chosen")
-    yaw_damping: NonNegative = key(2.0, "N m s", "couple of two hands against the yaw rate", source="chosen")
+    yaw_gain: NonNegative = key(
+        1.5,
+        "N m/rad",
+        "couple of two hands for each rad of heading error",
+        source="chosen",
+        acts='person.model = "two-hands"',
+    )
+    yaw_damping: NonNegative = key(
+        2.0, "N m s", "couple of two hands against the yaw rate", source="chosen", acts='person.model = "two-hands"'
+    )
     start_time: NonNegative = key(
         0.0, "s", "time before which the person does not push", rule="after the tare, or a warning says so"
     )

@@ -60,6 +60,7 @@ class PlantTable(Table):
         "real thrust over the modelled one, of each rotor at any speed, the largest too",
         source="the model is right",
         rule="1 for ideal rotors",
+        acts='actuators.model = "rotors"',
     )
 
 
@@ -116,29 +117,44 @@ class Quadrotor(Table):
         rule="each 1 or -1, such that every moment can be produced",
         source="neighbours turn in opposite directions",
     )
-    thrust_constant: Positive = key(..., "N/(rad/s)²", "thrust of a rotor over its speed squared", example=5.84e-6)
-    max_speed: Positive = key(..., "rad/s", "largest speed of a rotor", example=1100.0)
+    thrust_constant: Positive = key(
+        ...,
+        "N/(rad/s)²",
+        "thrust of a rotor over its speed squared",
+        example=5.84e-6,
+        acts='actuators.model = "rotors"',
+    )
+    max_speed: Positive = key(
+        ..., "rad/s", "largest speed of a rotor", example=1100.0, acts='actuators.model = "rotors"'
+    )
     max_thrust: Positive | None = key(
         None,
         "N",
         "in place of thrust_constant, max_speed or both",
         unset="thrust_constant · max_speed²",
         example=7.0,
+        acts='actuators.model = "rotors"',
     )
     torque_per_thrust: Positive = key(..., "m", "reaction torque of a rotor over its thrust", example=0.06)
-    lag_up: NonNegative = key(..., "s", "time constant of a rotor that speeds up", example=0.0125)
-    lag_down: NonNegative = key(..., "s", "time constant of a rotor that slows down", example=0.025)
+    lag_up: NonNegative = key(
+        ..., "s", "time constant of a rotor that speeds up", example=0.0125, acts='actuators.model = "rotors"'
+    )
+    lag_down: NonNegative = key(
+        ..., "s", "time constant of a rotor that slows down", example=0.025, acts='actuators.model = "rotors"'
+    )
     rotor_radius: Length = key(
         0.128,
         "m",
         "radius of a rotor, for the ground effect and for contact with floor and walls",
         source="PX4's Gazebo model iris",
+        acts='ground.model = "floor"',
     )
     rotor_height: Metre = key(
         0.05,
         "m",
         "height of the rotors' hubs above the quadrotor's centre of mass, for contact with floor and walls",
         source="chosen: a fifth of an arm of 0.25 m, as the pictures show it",
+        acts='ground.model = "floor"',
     )
     joint: Place | None = key(
         None,
@@ -152,23 +168,30 @@ class Quadrotor(Table):
         "m",
         "radius of the guard about the quadrotor: of a ring to the floor, of a sphere to walls",
         source="chosen: arm and rotor",
+        acts='ground.model = "floor"',
     )
     feet_spread: Length = key(
         0.12,
         "m",
         "distance of each of four feet from the quadrotor's centre, along its x and along its y",
         source="chosen",
+        acts='ground.model = "floor"',
     )
     feet_depth: Length = key(
-        0.18, "m", "distance of the soles below the quadrotor's centre", source="chosen: the beam stays off the floor"
+        0.18,
+        "m",
+        "distance of the soles below the quadrotor's centre",
+        source="chosen: the beam stays off the floor",
+        acts='ground.model = "floor"',
     )
     drag_area: Areas = key(
         (0.02, 0.02, 0.05),
         "m²",
         "area seen along each of its own axes, for drag in moving air; along body axes what it has there",
         source="chosen: a body of 0.2 m by 0.1 m, and rotor discs that are mostly open",
+        acts='wind.model = "air"',
     )
-    drag_coefficient: Size = key(1.0, "1", "drag coefficient", source="chosen: a bluff body")
+    drag_coefficient: Size = key(1.0, "1", "drag coefficient", source="chosen: a bluff body", acts='wind.model = "air"')
 
     @model_validator(mode="before")
     @classmethod

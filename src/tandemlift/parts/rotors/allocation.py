@@ -66,6 +66,7 @@ class AllocationTable(Table):
         "1",
         "for 'constrained': weights of the errors in thrust, roll, pitch and yaw when the rotors cannot give all four",
         source="chosen: roll and pitch first, then thrust, then yaw",
+        acts='allocation.method = "constrained"',
     )
     lead: Leads = key(
         (0.0, 0.0, 0.0, 0.0),
@@ -73,7 +74,11 @@ class AllocationTable(Table):
         "lead times of thrust, roll, pitch and yaw, against lag and delay of the rotors; all 0: as the controller asks",
     )
     lead_bandwidth: Bandwidth = key(
-        200.0, "rad/s", "bandwidth of the low-pass that smooths a wrench with lead time", source="chosen"
+        200.0,
+        "rad/s",
+        "bandwidth of the low-pass that smooths a wrench with lead time",
+        source="chosen",
+        acts="allocation.lead > 0",
     )
 
 

@@ -40,7 +40,7 @@ WITHIN = "below the time between samples"
 LATE = "delay of a sample beyond the one step after which any sample is known, rounded to whole steps"
 
 
-class JointSensors(Table):
+class JointSensors(Table, acts='sensors.joints.model = "simulated"'):
     """`[sensors.joints]`: the force-torque sensor at each joint, between quadrotor and payload."""
 
     model: Literal["none", "simulated"] = key(
@@ -134,7 +134,7 @@ class AdditionalSensorTable(Table):
     delay: Delay = key(0.0, "s", LATE, rule=STEPS)
 
 
-class SensorsTable(Table):
+class SensorsTable(Table, acts='sensors.model = "simulated"'):
     """`[sensors]`: simulated sensors; errors are independent along each axis.
 
     There are a force-torque sensor at every joint, an accelerometer and a gyroscope, all on one clock, the inertial
