@@ -8,7 +8,7 @@ A function that needs a part of a mission takes that table, or `Mission.hover`: 
 
 from tandemlift.missions.changes import format_toml, merge, tables_of
 from tandemlift.missions.checking import changed, check
-from tandemlift.missions.keys.acting import idle_keys, sentences
+from tandemlift.missions.keys.acting import IdleKey, idle_keys, sentences
 from tandemlift.missions.loading import (
     DATA,
     MissionLike,
@@ -31,6 +31,7 @@ from tandemlift.missions.mission import (
 __all__ = [
     "DATA",
     "HoverFacts",
+    "IdleKey",
     "InitialTable",
     "Mission",
     "MissionLike",

@@ -18,6 +18,7 @@ from tandemlift.core.keys import PerAxis, is_number
 from tandemlift.missions.key_descriptions import Model, table_in
 from tandemlift.missions.keys.places import Place as Place
 from tandemlift.missions.keys.places import Tables as Tables
+from tandemlift.missions.keys.places import places_in as places_in
 from tandemlift.missions.mission import Mission
 from tandemlift.parts.controllers import CONTROLLERS
 from tandemlift.parts.interaction.admittance import with_feel
