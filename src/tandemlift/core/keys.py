@@ -70,18 +70,27 @@ def is_number(value: Any) -> bool:
 
 
 class PerAxis:
-    """Marks a key given per axis: one number for all `count` axes (unless `single` is False), or one number each."""
+    """Marks a key given per axis: one number for all `count` axes, or one number each.
+
+    A vector in space has a direction, so its numbers may be negative: it is not `single`, and no number but 0 stands
+    for all three.
+    """
 
     def __init__(self, count: int, *, single: bool = True) -> None:
         self.count, self.single = count, single
 
     def describe(self, limits: str) -> str:
         """The allowed values in words; `limits` is the condition on each number."""
-        return f"{'one number or ' if self.single else ''}a list of {self.count} numbers{limits and ', each ' + limits}"
+        short = "one number or " if self.single else "0 or " if self.count == 3 else ""
+        return f"{short}a list of {self.count} numbers{limits and ', each ' + limits}"
+
+    def is_short(self, value: Any) -> bool:
+        """Whether a value is one number that stands for all axes."""
+        return is_number(value) and (self.single or (value == 0 and self.count == 3))
 
     def spread(self, value: Any) -> Any:
         """The numbers of all axes."""
-        if self.single and is_number(value):
+        if self.is_short(value):
             return (value,) * self.count
         if isinstance(value, (list, tuple)) and len(value) == self.count and all(map(is_number, value)):
             return tuple(value)
@@ -92,7 +101,6 @@ class PerAxis:
 
 
 Triple = tuple[float, float, float]
-Axes3 = Annotated[Triple, PerAxis(3)]
 Positive3 = Annotated[tuple[Positive, Positive, Positive], PerAxis(3)]
 NonNegative3 = Annotated[tuple[NonNegative, NonNegative, NonNegative], PerAxis(3)]
 Exactly3 = Annotated[Triple, PerAxis(3, single=False)]

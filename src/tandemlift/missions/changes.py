@@ -14,7 +14,7 @@ from pydantic.fields import FieldInfo
 
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.files import parts_of
-from tandemlift.core.keys import PerAxis, is_number
+from tandemlift.core.keys import PerAxis
 from tandemlift.missions.key_descriptions import Model, table_in
 from tandemlift.missions.keys.places import Place as Place
 from tandemlift.missions.keys.places import Tables as Tables
@@ -60,7 +60,7 @@ def _axis_by_axis(tables: Tables, parts: list[str]) -> Tables:
         at = at.get(part, {} if table_in(field.annotation) else field.default)
         model = _controller_of(at) if part == "controller" else table_in(field.annotation)
     axes = next((mark for mark in getattr(field, "metadata", ()) if isinstance(mark, PerAxis)), None)
-    if axes is None or not (isinstance(at, tuple) or (axes.single and is_number(at))):
+    if axes is None or not (isinstance(at, tuple) or axes.is_short(at)):
         return tables
     return _with(tables, above, list(at) if isinstance(at, tuple) else [at] * axes.count, "")
 

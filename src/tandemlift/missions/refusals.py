@@ -12,7 +12,7 @@ from pydantic_core import ErrorDetails
 
 from tandemlift.core.errors import dotted, nearest, shown
 from tandemlift.core.files import QUANTITY
-from tandemlift.core.keys import description_of
+from tandemlift.core.keys import description_of, is_number
 from tandemlift.missions.changes import MISSING, Place, value_at
 from tandemlift.missions.key_descriptions import Model, allowed, plain, table_in
 
@@ -96,6 +96,8 @@ def _rule(problem: ErrorDetails, field: FieldInfo | None, entry: bool) -> str:
 
 def _hint(problem: ErrorDetails, field: Any, given: object) -> str:
     kind = problem["type"]
+    if kind == "axes" and is_number(given):
+        return f", such as [{', '.join([shown(given), *['0'] * (len(get_args(plain(field.annotation))) - 1)])}]"
     if isinstance(given, str) and kind == "literal_error":
         options = get_args(plain(field.annotation))
         options = get_args(options[0]) or options  # of an entry of a list

@@ -17,6 +17,7 @@ from tandemlift.core.keys import description_of
 from tandemlift.missions.keys.places import Place, places_in
 
 SHOWN = 4  # keys that a sentence names
+ALSO = "also "  # before a condition by which a key acts whatever its tables need
 
 
 class IdleKey(NamedTuple):
@@ -31,42 +32,53 @@ class IdleKey(NamedTuple):
         return self.condition.partition(" ")[0]
 
 
-def conditions_of(mission: BaseModel, place: Place) -> list[str]:
-    """The conditions without which a key does not act, outermost first; none on itself or on a part of it."""
+def unmet(mission: BaseModel, place: Place) -> str | None:
+    """The first condition without which a key cannot act and that does not hold, outermost first; None if it acts."""
     key, value, found = dotted(place), mission, list[str]()
     for part in place:
         if isinstance(value, BaseModel):
             field = type(value).model_fields.get(str(part))
             for said in (getattr(value, "acts", ""), description_of(field).acts if field else ""):
-                found += said.split(" and ") if said else []
+                if said.startswith(ALSO) and holds(mission, said.removeprefix(ALSO)):
+                    return None
+                found += said.split(" and ") if said and not said.startswith(ALSO) else []
         value = _part(value, part)
-    return [one for one in found if not f"{key}.".startswith(f"{one.partition(' ')[0]}.")]
+    entry = next((part for part in place if isinstance(part, int)), 0)
+    found = [one.replace(".0.", f".{entry}.") for one in found]
+    others = (one for one in found if not f"{key}.".startswith(f"{one.partition(' ')[0]}."))
+    return next((one for one in others if not holds(mission, one)), None)
 
 
 def _part(value: Any, part: str | int) -> Any:
     """A part of a table or of a list; None if it is not there."""
-    if isinstance(value, tuple):
+    if isinstance(value, tuple) and not hasattr(value, str(part)):
         return value[part] if isinstance(part, int) and part < len(value) else None
     return getattr(value, str(part), None)
 
 
 def holds(mission: BaseModel, condition: str) -> bool:
-    """Whether a condition such as 'wind.model = "air"' holds."""
-    key, relation, wanted = condition.split(" ", 2)
-    value = reduce(_part, key.split("."), mission)
+    """Whether a condition such as 'wind.model = "air"' holds: its key acts, and has one of the values."""
+    key = relation = ""
+    for part in condition.split(" or "):
+        key, relation, wanted = part.split(" ", 2) if " " in part else (key, relation, part)
+        place = next(places_in({key: None}))
+        if _has(reduce(_part, place, mission), relation, wanted) and unmet(mission, place) is None:
+            return True
+    return False
+
+
+def _has(value: Any, relation: str, wanted: str) -> bool:
+    if relation == "is":
+        return (value in (None, ())) == (wanted == "left out")
     if relation == "=":
-        return written(value) in wanted.split(" or ")
-    return value not in (None, ()) if relation == "is" else any(x > float(wanted) for x in _numbers(value))
-
-
-def _numbers(value: Any) -> Iterable[float]:
-    return value if isinstance(value, tuple) else (value,)
+        return written(value) == wanted
+    return any(x > float(wanted) for x in (value if isinstance(value, tuple) else (value,)))
 
 
 def idle_keys(mission: BaseModel, places: Iterable[Place]) -> Iterator[IdleKey]:
     """Those of some keys that cannot act in a mission, each with the first of its conditions that does not hold."""
     for place in places:
-        broken = next((one for one in conditions_of(mission, place) if not holds(mission, one)), None)
+        broken = unmet(mission, place)
         if broken is not None:
             yield IdleKey(dotted(place), broken)
 

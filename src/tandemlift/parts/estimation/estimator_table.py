@@ -63,8 +63,16 @@ class EstimatorTable(Table, acts='sensors.model = "simulated"'):
         "start of the tare, in hover and without a push (or a warning says so)",
         unset="there is no tare",
         example=9.0,
+        acts='estimator.tare = "at-time"',
     )
-    tare_duration: Positive = key(2.0, "s", "duration of the tare", rule="at least one sample", source="chosen")
+    tare_duration: Positive = key(
+        2.0,
+        "s",
+        "duration of the tare",
+        rule="at least one sample",
+        source="chosen",
+        acts='estimator.tare_start is given or estimator.tare = "hover"',
+    )
     identify_mass: bool = key(
         False,
         None,
@@ -76,6 +84,7 @@ class EstimatorTable(Table, acts='sensors.model = "simulated"'):
         "N",
         "largest horizontal error of a single joint sensor that would explain its readings; beyond, pushes are ignored",
         source="chosen",
+        acts='estimator.wrench = "joints" or "fused"',
     )
     min_force: Scale = key(
         0.5,
@@ -98,6 +107,7 @@ class EstimatorTable(Table, acts='sensors.model = "simulated"'):
             "motion": "motion under the thrust that the pilot assumes: of a push that the motion "
             "contradicts, or that came with wind on the quadrotors, less than the threshold is left",
         },
+        acts='estimator.wrench = "joints"',
     )
     wind_compensation: Literal["none", "quadrotors"] = key(
         "none",

@@ -42,7 +42,9 @@ class YawTable(Table, acts='compliance.yaw.model = "compliant"'):
         example=3.3,
     )
     damping: Positive = key(1.6, "N m s", "virtual damping", source="chosen")
-    threshold: NonNegative = key(0.15, "N m", "moments up to this are ignored", source="chosen")
+    threshold: NonNegative = key(
+        0.15, "N m", "moments up to this are ignored", source="chosen", acts='also estimator.confirmation = "motion"'
+    )
     max_moment: Positive = key(
         0.9, "N m", "largest moment of the virtual damping", source="chosen: within the moment that the rotors have"
     )

@@ -44,6 +44,7 @@ class WaypointTable(Table):
         "heading of the vehicle on the path there; only model 'two-hands' rotates it",
         unset="the heading is kept",
         example=0.0,
+        acts='person.model = "two-hands"',
     )
     dwell: NonNegative = key(0.0, "s", "time for which the person keeps the vehicle there")
 

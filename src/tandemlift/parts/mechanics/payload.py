@@ -82,7 +82,6 @@ class Payload(Table):
         "m",
         "length of the unit of the mesh's file",
         source="its unit is the metre",
-        acts="vehicle.payload.mesh is given",
     )
     density: Positive | None = key(
         None, "kg/m³", "density of a mesh", unset="mass and inertia must be given", example=400.0
@@ -116,10 +115,14 @@ class Payload(Table):
         "area A seen along each body axis; drag in moving air is ½ ρ c A v²",
         unset="that of the shape, or none",
         example=[0.2, 0.008, 0.2],
-        acts='wind.model = "air"',
+        acts='wind.model = "air" or estimator.confirmation = "motion"',
     )
     drag_coefficient: Size = key(
-        1.0, "1", "drag coefficient c", source="chosen: a bluff body", acts='wind.model = "air"'
+        1.0,
+        "1",
+        "drag coefficient c",
+        source="chosen: a bluff body",
+        acts='wind.model = "air" or estimator.confirmation = "motion"',
     )
     bodies: tuple[Body, ...] = ()
 

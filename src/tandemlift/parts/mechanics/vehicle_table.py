@@ -9,7 +9,6 @@ import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 
 from tandemlift.core.keys import (
-    Axes3,
     Exactly3,
     Length,
     NonNegative,
@@ -36,8 +35,8 @@ COINCIDING = 1e-3  # m
 class DisturbanceTable(Table):
     """`[disturbance]`: a constant force and moment that are unknown to the pilot."""
 
-    force: Axes3 = key((0.0, 0.0, 0.0), "N", "force at the modelled centre of mass, world axes")
-    moment: Axes3 = key((0.0, 0.0, 0.0), "N m", "moment, body axes")
+    force: Exactly3 = key((0.0, 0.0, 0.0), "N", "force at the modelled centre of mass, world axes")
+    moment: Exactly3 = key((0.0, 0.0, 0.0), "N m", "moment, body axes")
 
 
 class PlantTable(Table):
@@ -93,7 +92,12 @@ class Quadrotor(Table):
         source="it faces along body x",
     )
     layout: Literal["+", "x"] = key(
-        "x", None, "arrangement of the rotors", example="+", choices={"+": "at +x, +y, -x, -y", "x": "45° further"}
+        "x",
+        None,
+        "arrangement of the rotors",
+        example="+",
+        choices={"+": "at +x, +y, -x, -y", "x": "45° further"},
+        acts="vehicle.quadrotors.0.rotor_positions is left out",
     )
     arm: Positive | None = key(
         None,
@@ -101,6 +105,7 @@ class Quadrotor(Table):
         "distance from the quadrotor's centre of mass to each rotor",
         unset="rotor_positions must be given",
         example=0.25,
+        acts="vehicle.quadrotors.0.rotor_positions is left out",
     )
     rotor_positions: tuple[Corner, Corner, Corner, Corner] | None = key(
         None,
@@ -189,9 +194,15 @@ class Quadrotor(Table):
         "m²",
         "area seen along each of its own axes, for drag in moving air; along body axes what it has there",
         source="chosen: a body of 0.2 m by 0.1 m, and rotor discs that are mostly open",
-        acts='wind.model = "air"',
+        acts='wind.model = "air" or estimator.confirmation = "motion"',
     )
-    drag_coefficient: Size = key(1.0, "1", "drag coefficient", source="chosen: a bluff body", acts='wind.model = "air"')
+    drag_coefficient: Size = key(
+        1.0,
+        "1",
+        "drag coefficient",
+        source="chosen: a bluff body",
+        acts='wind.model = "air" or estimator.confirmation = "motion"',
+    )
 
     @model_validator(mode="before")
     @classmethod

@@ -59,7 +59,7 @@ class WindTable(Table, acts='wind.model = "air"'):
     model: Literal["none", "air"] = key(
         "none", None, "model of the wind", choices={"none": "no moving air", "air": "moving air with drag"}
     )
-    velocity: Annotated[Speeds, PerAxis(3)] = key((0.0, 0.0, 0.0), "m/s", "mean velocity, world axes")
+    velocity: Annotated[Speeds, PerAxis(3, single=False)] = key((0.0, 0.0, 0.0), "m/s", "mean velocity, world axes")
     turbulence: Turbulence = key(
         0.0, "m/s", "mean wind at 20 ft that scales the turbulence: 7.7 is light, 15.4 moderate, 0 none"
     )

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import AfterValidator, Field
 
 from tandemlift.core.algebra import sqrt
-from tandemlift.core.keys import Axes3, Delay, NonNegative, Positive, Size, Table, key, must
+from tandemlift.core.keys import Delay, Exactly3, NonNegative, Positive, Size, Table, key, must
 from tandemlift.parts.sensors.vehicle_sensors import ADDITIONAL, DEVICES, SENSORS, sensors_on
 
 FINEST = 1e-9  # resolution of a sensor, in its unit
@@ -161,6 +161,8 @@ class SensorsTable(Table, acts='sensors.model = "simulated"'):
         "in their unit/√Hz, as data sheets give them",
         unset="their noise is that of a sample, whatever the interval",
         example=0.001,
+        acts="sensors.joints.force_noise > 0 or sensors.joints.torque_noise > 0 or sensors.accelerometer.noise > 0 or "
+        "sensors.gyroscope.noise > 0",
     )
     delay: Delay = key(
         0.0,
@@ -226,7 +228,7 @@ class SensorFaultTable(Table):
     until: NonNegative | None = key(
         None, "s", "end of the fault", rule="after its start", unset="it lasts for good", example=20.0
     )
-    size: Axes3 = key(
+    size: Exactly3 = key(
         (0.0, 0.0, 0.0),
         THE_SENSORS,
         "offset, or the reading in its place; a force for joints, a rotation about body axes [rad] for the attitude",
