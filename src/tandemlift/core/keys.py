@@ -39,14 +39,22 @@ Length = Annotated[float, Field(gt=0.0, le=1e3), AfterValidator(divisor)]  # m
 
 
 class Table(BaseModel):
-    """A strict, frozen table of a mission; `acts`: the condition without which no key in it acts, as in `key`."""
+    """A strict, frozen table of a mission.
+
+    A table may say when it acts: `acts` is the condition without which none of its keys does, and `keys_act` has those
+    of some of its keys, by their names. A condition is text such as 'wind.model = "air"', "wind.turbulence > 0" or
+    "person.path is given"; values and alternatives are joined by " or ", conditions by " and ". After "also ", it is
+    one by which a key acts whatever its tables say.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False, validate_default=True)
     acts: ClassVar[str] = ""
+    conditions: ClassVar[Mapping[str, str]] = {}
 
-    def __init_subclass__(cls, *, acts: str | None = None, **kwargs: Any) -> None:
+    def __init_subclass__(cls, *, acts: str = "", keys_act: Mapping[str, str] | None = None, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
-        cls.acts = cls.acts if acts is None else acts
+        own = {name: condition for names, condition in (keys_act or {}).items() for name in names.split()}
+        cls.acts, cls.conditions = acts or cls.acts, {**cls.conditions, **own}
 
     @model_validator(mode="before")
     @classmethod
@@ -127,8 +135,6 @@ class KeyDescription(NamedTuple):
         unset: the effect of leaving the key out, for a key without a default value.
         example: a value for the template, if there is no default or it shows little.
         choices: the meaning of each of its choices.
-        acts: the condition without which it does not act, such as 'wind.model = "air"', 'wind.turbulence > 0' or
-            'person.path is given'; values are joined by " or ", conditions by " and ".
     """
 
     unit: str | None = None
@@ -138,7 +144,6 @@ class KeyDescription(NamedTuple):
     unset: str = ""
     example: Any = None
     choices: Mapping[str, str] = {}
-    acts: str = ""
 
 
 def key(
@@ -151,10 +156,9 @@ def key(
     unset: str = "",
     example: Any = None,
     choices: Mapping[str, str] | None = None,
-    acts: str = "",
 ) -> Any:
     """A field of a table with its `KeyDescription`; `...` as the default makes the key required."""
-    description = KeyDescription(unit, meaning, source, rule, unset, example, choices or {}, acts)
+    description = KeyDescription(unit, meaning, source, rule, unset, example, choices or {})
     return Field(default, description=meaning, json_schema_extra={DESCRIPTION: description._asdict()})
 
 

@@ -23,7 +23,7 @@ Frequency = Annotated[float, Field(gt=0.0, le=1e4)]  # Hz
 Periods = Annotated[int, Field(ge=2, le=1000)]
 
 
-class CrashTable(Table):
+class CrashTable(Table, keys_act={"impulse": 'ground.model = "floor"', "fence_margin": 'supervision.model = "on"'}):
     """`[crash]`: limits beyond which a flight ends as crashed; see docs/reference/outcomes.md."""
 
     tilt: Annotated[float, Field(gt=0.0, le=3.2)] = key(
@@ -40,7 +40,6 @@ class CrashTable(Table):
         "constant of 0.1 s",
         unset="mass times 2 m/s, as in a fall from 0.2 m",
         example=7.0,
-        acts='ground.model = "floor"',
     )
     fence_margin: NonNegative = key(
         1.0,
@@ -48,7 +47,6 @@ class CrashTable(Table):
         "distance by which the vehicle may be outside `supervision.fence`",
         rule='at least `supervision.fence.margin`; effective if supervision.model is "on"',
         source="chosen: gives the supervision time to hold the vehicle",
-        acts='supervision.model = "on"',
     )
     fly_on: NonNegative = key(
         0.0,
@@ -59,7 +57,7 @@ class CrashTable(Table):
     )
 
 
-class OutcomeTable(Table):
+class OutcomeTable(Table, keys_act={"landed_height": 'ground.model = "none"'}):
     """`[outcome]`: criteria for a lift and for a landing; see docs/reference/outcomes.md."""
 
     lifted_height: Positive = key(
@@ -70,11 +68,7 @@ class OutcomeTable(Table):
     )
     landed_speed: Positive = key(0.1, "m/s", "largest speed of a vehicle that has landed", source="chosen")
     landed_height: Positive = key(
-        0.1,
-        "m",
-        "without a floor: largest distance in z from the start after a landing",
-        source="chosen",
-        acts='ground.model = "none"',
+        0.1, "m", "without a floor: largest distance in z from the start after a landing", source="chosen"
     )
 
 
@@ -150,7 +144,7 @@ def promise_of(p: PromiseTable, guidance: str) -> Promise:
     return Promise(distance, p.rms_distance, p.heading, p.tilt, settled)
 
 
-class FindingsTable(Table):
+class FindingsTable(Table, keys_act={"saturated_time saturated_fraction reach_time": 'actuators.model = "rotors"'}):
     """`[findings]`: thresholds of findings; see docs/reference/outcomes.md."""
 
     ignore: tuple[FindingName, ...] = key((), None, "kinds of findings that are not reported")
@@ -184,18 +178,13 @@ class FindingsTable(Table):
         3, "1", "consecutive periods that count as an oscillation", source="chosen: two may be a push and its echo"
     )
     saturated_time: Positive = key(
-        1.0,
-        "s",
-        "longest uninterrupted time with a rotor at its limit",
-        source="chosen: built-in missions keep 0.2 s",
-        acts='actuators.model = "rotors"',
+        1.0, "s", "longest uninterrupted time with a rotor at its limit", source="chosen: built-in missions keep 0.2 s"
     )
     saturated_fraction: Fraction = key(
         0.1,
         "1",
         "largest fraction of the flight with a rotor at its limit",
         source="chosen: built-in missions keep 0.02",
-        acts='actuators.model = "rotors"',
     )
     push_time: Positive = key(
         1.0,
@@ -219,11 +208,7 @@ class FindingsTable(Table):
         0.5, "s", "time for which the motion may refute a measured push", source="chosen: longer than an impact"
     )
     reach_time: NonNegative = key(
-        0.1,
-        "s",
-        "time for which the reference may need more thrust than available",
-        source="chosen",
-        acts='actuators.model = "rotors"',
+        0.1, "s", "time for which the reference may need more thrust than available", source="chosen"
     )
     reach_distance: Positive = key(
         2.0,

@@ -1,7 +1,7 @@
 """Keys that cannot act in a mission, such as `wind.velocity` without a wind.
 
-Tables and keys declare the condition without which they do not act (`acts` of `core.keys.Table` and of
-`core.keys.key`); the conditions of the tables above a key hold for it, too.
+Tables declare the conditions without which they, or keys of theirs, do not act (`core.keys.Table`); those of the tables
+above a key hold for it, too.
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ from typing import Any, NamedTuple
 from pydantic import BaseModel
 
 from tandemlift.core.errors import dotted, written
-from tandemlift.core.keys import description_of
 from tandemlift.missions.keys.places import Place, places_in
 
 SHOWN = 4  # keys that a sentence names
@@ -37,8 +36,7 @@ def unmet(mission: BaseModel, place: Place) -> str | None:
     key, value, found = dotted(place), mission, list[str]()
     for part in place:
         if isinstance(value, BaseModel):
-            field = type(value).model_fields.get(str(part))
-            for said in (getattr(value, "acts", ""), description_of(field).acts if field else ""):
+            for said in (getattr(value, "acts", ""), getattr(value, "conditions", {}).get(part, "")):
                 if said.startswith(ALSO) and holds(mission, said.removeprefix(ALSO)):
                     return None
                 found += said.split(" and ") if said and not said.startswith(ALSO) else []

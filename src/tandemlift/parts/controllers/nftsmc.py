@@ -79,7 +79,13 @@ class Gains(Table):
     a: AtLeastOne6 = key(..., "1", "exponent of the terminal part", example=3.0)
 
 
-class NFTSMCSettings(ControllerTable):
+class NFTSMCSettings(
+    ControllerTable,
+    keys_act={
+        "filter_bandwidth smoothing_bandwidth": 'controller.attitude_reference_derivatives = "filtered"',
+        "boundary_layer": 'controller.switching = "saturation" or "tanh"',
+    },
+):
     """`[controller]`: settings of nftsmc, the paper's controller."""
 
     name: Literal["nftsmc"] = "nftsmc"
@@ -95,7 +101,6 @@ class NFTSMCSettings(ControllerTable):
         "m/s, rad/s",
         "boundary layer Φ; where (λ₁ + λ₂/Φ) · step ≥ 2, it chatters, and a warning says so",
         source="chosen; the paper leaves 0 < Φ < 1 open",
-        acts='controller.switching = "saturation" or "tanh"',
     )
     attitude_reference_derivatives: Literal["zero", "filtered"] = key(
         "zero",
@@ -104,18 +109,13 @@ class NFTSMCSettings(ControllerTable):
         choices={"zero": "taken to be zero", "filtered": "of a second-order command filter, which the law then tracks"},
     )
     filter_bandwidth: Annotated[float, Field(gt=0.0, le=1e4)] = key(
-        60.0,
-        "rad/s",
-        "bandwidth of the command filter of attitude_reference_derivatives",
-        source="chosen",
-        acts='controller.attitude_reference_derivatives = "filtered"',
+        60.0, "rad/s", "bandwidth of the command filter of attitude_reference_derivatives", source="chosen"
     )
     smoothing_bandwidth: Annotated[float, Field(ge=0.0, le=1e4)] = key(
         0.0,
         "rad/s",
         "bandwidth of a low-pass before this filter, which keeps noise out of the reference's accelerations; 0: none",
         source="the paper has none",
-        acts='controller.attitude_reference_derivatives = "filtered"',
     )
     euler_rates: Literal["exact", "body"] = key(
         "exact",

@@ -44,7 +44,11 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import Mixer, wrench
 
 
-class ObserverTable(Table, acts='observer.model = "extended-state" or "super-twisting"'):
+class ObserverTable(
+    Table,
+    acts='observer.model = "extended-state" or "super-twisting"',
+    keys_act={"force_slope moment_slope": 'observer.model = "super-twisting"'},
+):
     """`[observer]`: a disturbance observer, which separates wind and model error from the person's push.
 
     The controller compensates its estimate. It is driven by the thrusts that the allocation could give, so it needs
@@ -63,19 +67,11 @@ class ObserverTable(Table, acts='observer.model = "extended-state" or "super-twi
     )
     force_bandwidth: Positive3 = key((6.0, 6.0, 6.0), "rad/s", "bandwidth of the estimated force", source=TRIAL)
     force_slope: Positive3 = key(
-        (10.0, 10.0, 10.0),
-        "N/s",
-        "steepest change of the force that 'super-twisting' follows",
-        source=TRIAL,
-        acts='observer.model = "super-twisting"',
+        (10.0, 10.0, 10.0), "N/s", "steepest change of the force that 'super-twisting' follows", source=TRIAL
     )
     moment_bandwidth: Positive3 = key((10.0, 10.0, 10.0), "rad/s", "bandwidth of the estimated moment", source=TRIAL)
     moment_slope: Positive3 = key(
-        (5.0, 5.0, 5.0),
-        "N m/s",
-        "steepest change of the moment that 'super-twisting' follows",
-        source=TRIAL,
-        acts='observer.model = "super-twisting"',
+        (5.0, 5.0, 5.0), "N m/s", "steepest change of the moment that 'super-twisting' follows", source=TRIAL
     )
     rotor_lag: Positive = key(
         0.018, "s", "time constant of the rotors in the observer's model, up and down", source=BELIEVED

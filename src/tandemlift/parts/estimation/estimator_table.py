@@ -14,7 +14,17 @@ from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.parts.sensors.sensors_table import SensorsTable, noise_scale, steps_of
 
 
-class EstimatorTable(Table, acts='sensors.model = "simulated"'):
+class EstimatorTable(
+    Table,
+    acts='sensors.model = "simulated"',
+    keys_act={
+        "wind_bandwidth": 'estimator.wind_compensation = "quadrotors"',
+        "tare_start": 'estimator.tare = "at-time"',
+        "tare_duration": 'estimator.tare_start is given or estimator.tare = "hover"',
+        "disagreement_limit": 'estimator.wrench = "joints" or "fused"',
+        "confirmation": 'estimator.wrench = "joints"',
+    },
+):
     """`[estimator]`: the push from the joints' force sensors, and the state from inertial and motion sensors.
 
     The push is the force that accelerates the payload and does not come through a joint: wind on the payload is part of
@@ -63,16 +73,8 @@ class EstimatorTable(Table, acts='sensors.model = "simulated"'):
         "start of the tare, in hover and without a push (or a warning says so)",
         unset="there is no tare",
         example=9.0,
-        acts='estimator.tare = "at-time"',
     )
-    tare_duration: Positive = key(
-        2.0,
-        "s",
-        "duration of the tare",
-        rule="at least one sample",
-        source="chosen",
-        acts='estimator.tare_start is given or estimator.tare = "hover"',
-    )
+    tare_duration: Positive = key(2.0, "s", "duration of the tare", rule="at least one sample", source="chosen")
     identify_mass: bool = key(
         False,
         None,
@@ -84,7 +86,6 @@ class EstimatorTable(Table, acts='sensors.model = "simulated"'):
         "N",
         "largest horizontal error of a single joint sensor that would explain its readings; beyond, pushes are ignored",
         source="chosen",
-        acts='estimator.wrench = "joints" or "fused"',
     )
     min_force: Scale = key(
         0.5,
@@ -107,7 +108,6 @@ class EstimatorTable(Table, acts='sensors.model = "simulated"'):
             "motion": "motion under the thrust that the pilot assumes: of a push that the motion "
             "contradicts, or that came with wind on the quadrotors, less than the threshold is left",
         },
-        acts='estimator.wrench = "joints"',
     )
     wind_compensation: Literal["none", "quadrotors"] = key(
         "none",
@@ -124,7 +124,6 @@ class EstimatorTable(Table, acts='sensors.model = "simulated"'):
         "rad/s",
         "bandwidth of the low-pass filter on the estimated wind force; lower for noisy joints, higher for gusts",
         source="chosen",
-        acts='estimator.wind_compensation = "quadrotors"',
     )
 
 

@@ -22,7 +22,9 @@ from tandemlift.parts.mechanics.rotation import heading_from, wrap_angle
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
-class YawTable(Table, acts='compliance.yaw.model = "compliant"'):
+class YawTable(
+    Table, acts='compliance.yaw.model = "compliant"', keys_act={"threshold": 'also estimator.confirmation = "motion"'}
+):
     """`[compliance.yaw]`: rotation of the vehicle by a push beside the centre of mass."""
 
     model: Literal["held", "compliant"] = key(
@@ -42,9 +44,7 @@ class YawTable(Table, acts='compliance.yaw.model = "compliant"'):
         example=3.3,
     )
     damping: Positive = key(1.6, "N m s", "virtual damping", source="chosen")
-    threshold: NonNegative = key(
-        0.15, "N m", "moments up to this are ignored", source="chosen", acts='also estimator.confirmation = "motion"'
-    )
+    threshold: NonNegative = key(0.15, "N m", "moments up to this are ignored", source="chosen")
     max_moment: Positive = key(
         0.9, "N m", "largest moment of the virtual damping", source="chosen: within the moment that the rotors have"
     )

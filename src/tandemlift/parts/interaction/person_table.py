@@ -31,7 +31,7 @@ from tandemlift.parts.mechanics.rotation import heading_from
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
-class WaypointTable(Table):
+class WaypointTable(Table, keys_act={"heading": 'person.model = "two-hands"'}):
     """`[[person.path]]`: waypoints, one table each, joined by straight lines."""
 
     point: Point2 = key(
@@ -44,12 +44,18 @@ class WaypointTable(Table):
         "heading of the vehicle on the path there; only model 'two-hands' rotates it",
         unset="the heading is kept",
         example=0.0,
-        acts='person.model = "two-hands"',
     )
     dwell: NonNegative = key(0.0, "s", "time for which the person keeps the vehicle there")
 
 
-class PersonTable(Table, acts='person.model = "pull" or "steer" or "two-hands" or "hold"'):
+class PersonTable(
+    Table,
+    acts='person.model = "pull" or "steer" or "two-hands" or "hold"',
+    keys_act={
+        "yaw_gain yaw_damping max_couple": 'person.model = "two-hands"',
+        "grip": 'person.model = "pull" or "steer" or "hold"',
+    },
+):
     """`[person]`: a person in the loop, who sees the vehicle with a delay and leads it by hand along a path.
 
     The person's view is delayed by `delay`. The person predicts the vehicle's present place from it. The desired force
@@ -86,7 +92,6 @@ class PersonTable(Table, acts='person.model = "pull" or "steer" or "two-hands" o
         "m",
         "place where one hand holds the payload, along body y from the payload's centre",
         rule="on the payload",
-        acts='person.model = "pull" or "steer" or "hold"',
     )
     stiffness: Positive = key(10.0, "N/m", "stiffness of the arm between hand and grip", source="chosen: a light hold")
     damping: NonNegative = key(1.0, "N s/m", "damping of the arm between hand and grip", source="chosen: a light hold")
@@ -107,9 +112,7 @@ class PersonTable(Table, acts='person.model = "pull" or "steer" or "two-hands" o
         source="band: Elble and Randall, 1978; size chosen",
     )
     max_force: Positive = key(8.0, "N", "largest force of the person", source="chosen")
-    max_couple: NonNegative = key(
-        0.8, "N m", "largest couple of two hands about the vertical", source="chosen", acts='person.model = "two-hands"'
-    )
+    max_couple: NonNegative = key(0.8, "N m", "largest couple of two hands about the vertical", source="chosen")
     speed: Positive = key(
         1.0, "m/s", "desired speed; the vehicle is slower, because the force needs a missing speed", source="chosen"
     )
@@ -137,16 +140,8 @@ class PersonTable(Table, acts='person.model = "pull" or "steer" or "two-hands" o
     landing_speed: Positive = key(
         0.1, "m/s", "speed at the last waypoint below which the person requests a landing", source="chosen"
     )
-    yaw_gain: NonNegative = key(
-        1.5,
-        "N m/rad",
-        "couple of two hands for each rad of heading error",
-        source="chosen",
-        acts='person.model = "two-hands"',
-    )
-    yaw_damping: NonNegative = key(
-        2.0, "N m s", "couple of two hands against the yaw rate", source="chosen", acts='person.model = "two-hands"'
-    )
+    yaw_gain: NonNegative = key(1.5, "N m/rad", "couple of two hands for each rad of heading error", source="chosen")
+    yaw_damping: NonNegative = key(2.0, "N m s", "couple of two hands against the yaw rate", source="chosen")
     start_time: NonNegative = key(
         0.0, "s", "time before which the person does not push", rule="after the tare, or a warning says so"
     )

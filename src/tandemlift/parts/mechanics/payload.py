@@ -32,7 +32,9 @@ OWN = {  # keys of one shape
 }
 
 
-class Payload(Table):
+class Payload(
+    Table, keys_act={"drag_area drag_coefficient": 'wind.model = "air" or estimator.confirmation = "motion"'}
+):
     """`[vehicle.payload]`: a beam along body y, a box, a mesh, bodies, or any with a mass and moments of inertia.
 
     Positions on the vehicle are from the payload's origin: the middle of a beam or a box, whether its mass is even or
@@ -77,12 +79,7 @@ class Payload(Table):
         unset="the payload is no mesh, or has corners",
         example="gearbox.stl",
     )
-    mesh_scale: Positive = key(
-        1.0,
-        "m",
-        "length of the unit of the mesh's file",
-        source="its unit is the metre",
-    )
+    mesh_scale: Positive = key(1.0, "m", "length of the unit of the mesh's file", source="its unit is the metre")
     density: Positive | None = key(
         None, "kg/m³", "density of a mesh", unset="mass and inertia must be given", example=400.0
     )
@@ -115,15 +112,8 @@ class Payload(Table):
         "area A seen along each body axis; drag in moving air is ½ ρ c A v²",
         unset="that of the shape, or none",
         example=[0.2, 0.008, 0.2],
-        acts='wind.model = "air" or estimator.confirmation = "motion"',
     )
-    drag_coefficient: Size = key(
-        1.0,
-        "1",
-        "drag coefficient c",
-        source="chosen: a bluff body",
-        acts='wind.model = "air" or estimator.confirmation = "motion"',
-    )
+    drag_coefficient: Size = key(1.0, "1", "drag coefficient c", source="chosen: a bluff body")
     bodies: tuple[Body, ...] = ()
 
     @model_validator(mode="after")

@@ -39,7 +39,7 @@ class DisturbanceTable(Table):
     moment: Exactly3 = key((0.0, 0.0, 0.0), "N m", "moment, body axes")
 
 
-class PlantTable(Table):
+class PlantTable(Table, keys_act={"thrust_scale": 'actuators.model = "rotors"'}):
     """`[plant]`: differences of the real body from the pilot's model."""
 
     mass_scale: Scale = key(1.0, "1", "real mass over the modelled mass", source="the model is right")
@@ -59,11 +59,18 @@ class PlantTable(Table):
         "real thrust over the modelled one, of each rotor at any speed, the largest too",
         source="the model is right",
         rule="1 for ideal rotors",
-        acts='actuators.model = "rotors"',
     )
 
 
-class Quadrotor(Table):
+class Quadrotor(
+    Table,
+    keys_act={
+        "thrust_constant max_speed max_thrust lag_up lag_down": 'actuators.model = "rotors"',
+        "drag_area drag_coefficient": 'wind.model = "air" or estimator.confirmation = "motion"',
+        "feet_spread feet_depth rotor_radius rotor_height guard_radius": 'ground.model = "floor"',
+        "layout arm": "vehicle.quadrotors.0.rotor_positions is left out",
+    },
+):
     """`[[vehicle.quadrotors]]`: one table for each quadrotor, 1 to 64 of them, rigidly fixed to the payload.
 
     They are at least 1 mm apart, and no rotor strikes another. One with a `heading` is turned about body z, with all
@@ -92,12 +99,7 @@ class Quadrotor(Table):
         source="it faces along body x",
     )
     layout: Literal["+", "x"] = key(
-        "x",
-        None,
-        "arrangement of the rotors",
-        example="+",
-        choices={"+": "at +x, +y, -x, -y", "x": "45° further"},
-        acts="vehicle.quadrotors.0.rotor_positions is left out",
+        "x", None, "arrangement of the rotors", example="+", choices={"+": "at +x, +y, -x, -y", "x": "45° further"}
     )
     arm: Positive | None = key(
         None,
@@ -105,7 +107,6 @@ class Quadrotor(Table):
         "distance from the quadrotor's centre of mass to each rotor",
         unset="rotor_positions must be given",
         example=0.25,
-        acts="vehicle.quadrotors.0.rotor_positions is left out",
     )
     rotor_positions: tuple[Corner, Corner, Corner, Corner] | None = key(
         None,
@@ -122,44 +123,25 @@ class Quadrotor(Table):
         rule="each 1 or -1, such that every moment can be produced",
         source="neighbours turn in opposite directions",
     )
-    thrust_constant: Positive = key(
-        ...,
-        "N/(rad/s)²",
-        "thrust of a rotor over its speed squared",
-        example=5.84e-6,
-        acts='actuators.model = "rotors"',
-    )
-    max_speed: Positive = key(
-        ..., "rad/s", "largest speed of a rotor", example=1100.0, acts='actuators.model = "rotors"'
-    )
+    thrust_constant: Positive = key(..., "N/(rad/s)²", "thrust of a rotor over its speed squared", example=5.84e-6)
+    max_speed: Positive = key(..., "rad/s", "largest speed of a rotor", example=1100.0)
     max_thrust: Positive | None = key(
-        None,
-        "N",
-        "in place of thrust_constant, max_speed or both",
-        unset="thrust_constant · max_speed²",
-        example=7.0,
-        acts='actuators.model = "rotors"',
+        None, "N", "in place of thrust_constant, max_speed or both", unset="thrust_constant · max_speed²", example=7.0
     )
     torque_per_thrust: Positive = key(..., "m", "reaction torque of a rotor over its thrust", example=0.06)
-    lag_up: NonNegative = key(
-        ..., "s", "time constant of a rotor that speeds up", example=0.0125, acts='actuators.model = "rotors"'
-    )
-    lag_down: NonNegative = key(
-        ..., "s", "time constant of a rotor that slows down", example=0.025, acts='actuators.model = "rotors"'
-    )
+    lag_up: NonNegative = key(..., "s", "time constant of a rotor that speeds up", example=0.0125)
+    lag_down: NonNegative = key(..., "s", "time constant of a rotor that slows down", example=0.025)
     rotor_radius: Length = key(
         0.128,
         "m",
         "radius of a rotor, for the ground effect and for contact with floor and walls",
         source="PX4's Gazebo model iris",
-        acts='ground.model = "floor"',
     )
     rotor_height: Metre = key(
         0.05,
         "m",
         "height of the rotors' hubs above the quadrotor's centre of mass, for contact with floor and walls",
         source="chosen: a fifth of an arm of 0.25 m, as the pictures show it",
-        acts='ground.model = "floor"',
     )
     joint: Place | None = key(
         None,
@@ -173,36 +155,23 @@ class Quadrotor(Table):
         "m",
         "radius of the guard about the quadrotor: of a ring to the floor, of a sphere to walls",
         source="chosen: arm and rotor",
-        acts='ground.model = "floor"',
     )
     feet_spread: Length = key(
         0.12,
         "m",
         "distance of each of four feet from the quadrotor's centre, along its x and along its y",
         source="chosen",
-        acts='ground.model = "floor"',
     )
     feet_depth: Length = key(
-        0.18,
-        "m",
-        "distance of the soles below the quadrotor's centre",
-        source="chosen: the beam stays off the floor",
-        acts='ground.model = "floor"',
+        0.18, "m", "distance of the soles below the quadrotor's centre", source="chosen: the beam stays off the floor"
     )
     drag_area: Areas = key(
         (0.02, 0.02, 0.05),
         "m²",
         "area seen along each of its own axes, for drag in moving air; along body axes what it has there",
         source="chosen: a body of 0.2 m by 0.1 m, and rotor discs that are mostly open",
-        acts='wind.model = "air" or estimator.confirmation = "motion"',
     )
-    drag_coefficient: Size = key(
-        1.0,
-        "1",
-        "drag coefficient",
-        source="chosen: a bluff body",
-        acts='wind.model = "air" or estimator.confirmation = "motion"',
-    )
+    drag_coefficient: Size = key(1.0, "1", "drag coefficient", source="chosen: a bluff body")
 
     @model_validator(mode="before")
     @classmethod

@@ -50,7 +50,7 @@ class GustTable(Table):
     hold: NonNegative | None = key(None, "s", "time for which the gust holds its peak", unset="it stays", example=2.0)
 
 
-class WindTable(Table, acts='wind.model = "air"'):
+class WindTable(Table, acts='wind.model = "air"', keys_act={"height airspeed": "wind.turbulence > 0"}):
     """`[wind]`: moving air with quadratic drag on payload and quadrotors, unknown to the pilot.
 
     Gusts and Dryden turbulence are those of MIL-F-8785C.
@@ -68,7 +68,6 @@ class WindTable(Table, acts='wind.model = "air"'):
         "m",
         "height above ground for the turbulence's scales; clipped to the standard's range of 3.048 to 304.8",
         source="10 ft, where the standard begins",
-        acts="wind.turbulence > 0",
     )
     airspeed: Airspeed | None = key(
         None,
@@ -76,7 +75,6 @@ class WindTable(Table, acts='wind.model = "air"'):
         "speed at which the turbulence passes the vehicle",
         unset="that of the mean wind, at least 0.5",
         example=3.0,
-        acts="wind.turbulence > 0",
     )
     density: Annotated[Positive, Field(le=1e4)] = key(
         1.225, "kg/m³", "density of the air", source="standard atmosphere at sea level"

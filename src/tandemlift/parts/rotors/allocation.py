@@ -43,7 +43,9 @@ class Weights:
         return core_schema.no_info_before_validator_function(self.rows, handler(source))
 
 
-class AllocationTable(Table):
+class AllocationTable(
+    Table, keys_act={"priorities": 'allocation.method = "constrained"', "lead_bandwidth": "allocation.lead > 0"}
+):
     """`[allocation]`: how the wrench is distributed over the quadrotors."""
 
     method: Literal["pseudo-inverse", "constrained"] = key(
@@ -66,7 +68,6 @@ class AllocationTable(Table):
         "1",
         "for 'constrained': weights of the errors in thrust, roll, pitch and yaw when the rotors cannot give all four",
         source="chosen: roll and pitch first, then thrust, then yaw",
-        acts='allocation.method = "constrained"',
     )
     lead: Leads = key(
         (0.0, 0.0, 0.0, 0.0),
@@ -74,11 +75,7 @@ class AllocationTable(Table):
         "lead times of thrust, roll, pitch and yaw, against lag and delay of the rotors; all 0: as the controller asks",
     )
     lead_bandwidth: Bandwidth = key(
-        200.0,
-        "rad/s",
-        "bandwidth of the low-pass that smooths a wrench with lead time",
-        source="chosen",
-        acts="allocation.lead > 0",
+        200.0, "rad/s", "bandwidth of the low-pass that smooths a wrench with lead time", source="chosen"
     )
 
 

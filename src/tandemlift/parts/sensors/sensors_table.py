@@ -134,7 +134,14 @@ class AdditionalSensorTable(Table):
     delay: Delay = key(0.0, "s", LATE, rule=STEPS)
 
 
-class SensorsTable(Table, acts='sensors.model = "simulated"'):
+class SensorsTable(
+    Table,
+    acts='sensors.model = "simulated"',
+    keys_act={
+        "noise_interval": "sensors.joints.force_noise > 0 or sensors.joints.torque_noise > 0 or "
+        "sensors.accelerometer.noise > 0 or sensors.gyroscope.noise > 0"
+    },
+):
     """`[sensors]`: simulated sensors; errors are independent along each axis.
 
     There are a force-torque sensor at every joint, an accelerometer and a gyroscope, all on one clock, the inertial
@@ -161,8 +168,6 @@ class SensorsTable(Table, acts='sensors.model = "simulated"'):
         "in their unit/√Hz, as data sheets give them",
         unset="their noise is that of a sample, whatever the interval",
         example=0.001,
-        acts="sensors.joints.force_noise > 0 or sensors.joints.torque_noise > 0 or sensors.accelerometer.noise > 0 or "
-        "sensors.gyroscope.noise > 0",
     )
     delay: Delay = key(
         0.0,

@@ -22,7 +22,14 @@ class MotionNoise(NamedTuple):
     interval: float
 
 
-class WrenchTable(Table):
+class WrenchTable(
+    Table,
+    keys_act={
+        "force_bandwidth moment_bandwidth": 'estimator.wrench = "momentum" or "hybrid" or "disturbance-observer"',
+        "force_change moment_change": 'estimator.wrench = "kalman" or "extended-kalman" or "unscented" or "fused"',
+        "joint_force_tolerance joint_moment_tolerance": 'estimator.wrench = "fused"',
+    },
+):
     """`[estimator.wrench_observer]`: tuning of `estimator.wrench`; axes are x, y, z, and roll, pitch, yaw.
 
     The noise of the sensors is that of `[sensors]`, and the delay of the rotors `observer.rotor_delay`,
@@ -35,7 +42,6 @@ class WrenchTable(Table):
         "for 'momentum', 'hybrid' and 'disturbance-observer': bandwidth K of the force, with a delay of 1/K",
         rule="at most 0.1 over sensors.interval",
         source="chosen: a delay of 50 ms; along z, where the loop through the thrust is short, of 100 ms",
-        acts='estimator.wrench = "momentum" or "hybrid" or "disturbance-observer"',
     )
     moment_bandwidth: Positive3 = key(
         (4.0, 20.0, 4.0),
@@ -44,7 +50,6 @@ class WrenchTable(Table):
         "times σ",
         rule="at most 0.1 over sensors.interval",
         source="chosen: noise of 0.03 N m with the gyroscope of mission iris",
-        acts='estimator.wrench = "momentum" or "hybrid" or "disturbance-observer"',
     )
     force_change: Positive3 = key(
         (0.1, 0.1, 0.06),
@@ -54,25 +59,20 @@ class WrenchTable(Table):
         rule="such that the bandwidth is at most 0.1 over sensors.interval, or, without accelerometer, over "
         "sensors.motion.interval",
         source="chosen: a delay of 33 ms with the sensors of mission iris, and along z of 54 ms, with 'fused' 40 ms",
-        acts='estimator.wrench = "kalman" or "extended-kalman" or "unscented" or "fused"',
     )
     moment_change: Positive3 = key(
         (0.1, 0.01, 0.1),
         "N m/√s",
         "for the same: standard deviation of the change of the moment within a second",
         source="chosen: noise of 0.03 N m with the gyroscope of mission iris",
-        acts='estimator.wrench = "kalman" or "extended-kalman" or "unscented" or "fused"',
     )
     joint_force_tolerance: Positive = key(
         0.2,
         "N",
         "for 'fused': difference of joints and motion beyond which the joints are wrong, unless the motion shows it",
         source="chosen: twice what pushes of 3 N leave in mission iris",
-        acts='estimator.wrench = "fused"',
     )
-    joint_moment_tolerance: Positive = key(
-        0.2, "N m", "for 'fused': the same of moments", source="chosen", acts='estimator.wrench = "fused"'
-    )
+    joint_moment_tolerance: Positive = key(0.2, "N m", "for 'fused': the same of moments", source="chosen")
 
 
 def bandwidth_checks(
