@@ -15,6 +15,7 @@ from tandemlift.core.files import QUANTITY
 from tandemlift.core.keys import description_of, is_number
 from tandemlift.missions.changes import MISSING, Place, value_at
 from tandemlift.missions.key_descriptions import Model, allowed, plain, table_in
+from tandemlift.missions.keys.renamed import present_name
 
 BY_ANNOTATION = (  # prefixes of the kinds of error for which the annotation has the allowed values
     *("missing", "axes", "float_", "int_", "bool_", "string_type", "finite_", "greater_", "less_"),
@@ -125,6 +126,8 @@ def _unknown_key(model: Model, problem: ErrorDetails, data: object, prefix: Plac
     elsewhere = next((place for place in keys_of(model) if place[-1] == name), None)
     meant = (*where, near) if near else elsewhere and (*prefix, *elsewhere)
     hint = f". Did you mean {dotted(meant)}?" if meant else ""
+    former = ".".join(part for part in map(str, (*where, name)) if not part.isdigit())
+    hint = f". It is {now} now" if (now := present_name(former)) != former else hint
     this = f"{dotted(where)} has" if where else f"{whole} has the tables"
     given = f"{dotted((*where, name))} = {shown(value_at(data, problem['loc']))}"
     return (*above, name), f"{given}: unknown key; {this} {', '.join(names)}{hint}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import shlex
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import click
 
@@ -87,6 +87,25 @@ def new(
         load_mission(partial_file.absolute())
     name = shlex.quote(file)
     echo(f"written: {file}; next: tandemlift check {name}, tandemlift run {name}")
+
+
+def as_key(option: str, words: Sequence[str]) -> str:
+    """What to write in place of an unknown option that is a table or a key of a mission; "" if it is neither.
+
+    `words`: of the command, one of which is the option or begins with it.
+    """
+    from tandemlift.missions.key_descriptions import sections
+
+    name = option.lstrip("-").replace("-", "_")
+    own = [key for section in sections() for key in section.keys if key.facts.unit]
+    found = next((k for k in own if name in (k.name.rpartition(".")[0], k.name, k.name.rpartition(".")[2])), None)
+    if found is None:
+        return ""
+    after = [" ".join(words[i:]).removeprefix(option).lstrip(" =") for i, w in enumerate(words) if w.startswith(option)]
+    value = [*(after[0].split() if after else ()), ""][0]
+    number = value if value.lstrip("+-")[:1].isdigit() else "…"
+    vector = "3 numbers" in found.allowed and not found.allowed.startswith("one number")
+    return f"it is a key of the mission: --set {found.name}={f'[{number},0,0]' if vector else number}"
 
 
 @click.command()
