@@ -17,7 +17,6 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array, flat, leaves
 from tandemlift.core.vector import Absent, layout
 from tandemlift.missions import changed, idle_keys, sentences
-from tandemlift.missions.changes import place_of
 from tandemlift.missions.recording import read_recording
 from tandemlift.parts.interaction.virtual_hand import HAND_RELEASED
 from tandemlift.simulation.plan import FlightPlan
@@ -80,8 +79,7 @@ def _check(before: FlightPlan, after: FlightPlan, key: str) -> None:
         raise InputError(f"{key} {LATER}")
     if before.variant == after.variant:
         if _parameters(before) == _parameters(after) and before.mission.model_copy(update=STEADY) != after.mission:
-            idle = sentences(after.mission, idle_keys(after.mission, [place_of(key)]))
-            raise InputError(idle[0] if idle else f"{key} {NO_EFFECT}")
+            raise InputError(*sentences(after.mission, idle_keys(after.mission, [key])) or [f"{key} {NO_EFFECT}"])
         return
     if before.interpreted or after.interpreted:
         name = (before if before.interpreted else after).mission.controller.name

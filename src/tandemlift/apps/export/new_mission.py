@@ -134,7 +134,7 @@ def scaled(beam: NewBeam) -> Iterator[tuple[str, str, Any]]:
     Where these do not act yet, the key that decides is among them, so that the file says so.
     """
     found = list(_scaled(beam))
-    resting = {idle.decided_by for idle in idle_keys(_base(), [tuple(key.split(".")) for key, _, _ in found])}
+    resting = {idle.decided_by for idle in idle_keys(_base(), [key for key, _, _ in found])}
     order = {key.name: place for place, key in enumerate(key for section in sections() for key in section.keys)}
     deciding = [(key, "", value_at(tables_of(_base()), tuple(key.split(".")))) for key in resting]
     yield from sorted([*found, *deciding], key=lambda one: order[one[0]])

@@ -73,9 +73,10 @@ def _has(value: Any, relation: str, wanted: str) -> bool:
     return any(x > float(wanted) for x in (value if isinstance(value, tuple) else (value,)))
 
 
-def idle_keys(mission: BaseModel, places: Iterable[Place]) -> Iterator[IdleKey]:
+def idle_keys(mission: BaseModel, keys: Iterable[str | Place]) -> Iterator[IdleKey]:
     """Those of some keys that cannot act in a mission, each with the first of its conditions that does not hold."""
-    for place in places:
+    for key in keys:
+        place = next(places_in({key: None})) if isinstance(key, str) else key
         broken = unmet(mission, place)
         if broken is not None:
             yield IdleKey(dotted(place), broken)

@@ -134,7 +134,7 @@ class Quadrotor(
     rotor_radius: Length = key(
         0.128,
         "m",
-        "radius of a rotor, for the ground effect and for contact with floor and walls",
+        "radius of a rotor, for ground effect and contact with floor and walls",
         source="PX4's Gazebo model iris",
     )
     rotor_height: Metre = key(
@@ -157,10 +157,7 @@ class Quadrotor(
         source="chosen: arm and rotor",
     )
     feet_spread: Length = key(
-        0.12,
-        "m",
-        "distance of each of four feet from the quadrotor's centre, along its x and along its y",
-        source="chosen",
+        0.12, "m", "distance of each foot from the quadrotor's centre, along its x and y", source="chosen"
     )
     feet_depth: Length = key(
         0.18, "m", "distance of the soles below the quadrotor's centre", source="chosen: the beam stays off the floor"

@@ -20,7 +20,6 @@ from tandemlift.core.errors import InputError, shown, suggestion
 from tandemlift.core.files import toml_tables
 from tandemlift.core.keys import is_number
 from tandemlift.missions import Mission, idle_keys, sentences
-from tandemlift.missions.changes import place_of
 from tandemlift.missions.key_descriptions import bounds, innermost, plain
 
 DIGITS = 3  # of a flown number
@@ -136,7 +135,7 @@ def parameters_of(mission: Mission, ranges: Mapping[str, Range], factor: float) 
     for asked, limits in (ranges or {"controller": None}).items():
         _check_range(asked, limits)
         matching = _matching(asked, leaves)
-        idle = list(idle_keys(mission, [place_of(leaf.key) for leaf, _ in matching]))
+        idle = list(idle_keys(mission, [leaf.key for leaf, _ in matching]))
         resting = {one.key for one in idle}
         if matching and len(resting) == len(matching):
             raise InputError(f"--parameter {asked}: {sentences(mission, idle)[0]}")
