@@ -78,6 +78,7 @@ def lines_of(key: Key) -> list[str]:
         lines.append(f"{last}If left out: {default_words(key)}{source}.")
     else:
         lines.append(f"{last}Default: {default_words(key)}{source}.")
+    lines[-1] += f" Acts where {key.acts}." if key.acts else ""
     return lines
 
 

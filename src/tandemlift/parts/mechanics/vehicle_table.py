@@ -39,7 +39,7 @@ class DisturbanceTable(Table):
     moment: Exactly3 = key((0.0, 0.0, 0.0), "N m", "moment, body axes")
 
 
-class PlantTable(Table, keys_act={"thrust_scale": 'actuators.model = "rotors"'}):
+class PlantTable(Table):
     """`[plant]`: differences of the real body from the pilot's model."""
 
     mass_scale: Scale = key(1.0, "1", "real mass over the modelled mass", source="the model is right")
@@ -73,9 +73,8 @@ class Quadrotor(
 ):
     """`[[vehicle.quadrotors]]`: one table for each quadrotor, 1 to 64 of them, rigidly fixed to the payload.
 
-    They are at least 1 mm apart, and no rotor strikes another. One with a `heading` is turned about body z, with all
-    that is its own. Thrust stays along body z. Readings of its joint are along the body axes, whatever its heading. In
-    dotted keys, the first has the number 0.
+    They are at least 1 mm apart, and no rotor strikes another. One with a `heading` is turned about body z, with all of
+    its own but the thrust and the readings of its joint, which are along body axes. In keys, the first has number 0.
     """
 
     mass: Positive = key(..., "kg", "mass of the quadrotor", example=1.5)

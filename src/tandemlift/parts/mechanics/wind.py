@@ -1,8 +1,7 @@
 """The velocity of the air: steady wind, discrete gusts and turbulence; its drag on payload and quadrotors.
 
-Gusts have the 1 − cosine shape of MIL-F-8785C, section 3.7. Velocities are in world axes [m/s]. They are unknown to
-the pilot. The drag is quadratic in the velocity through the air, with `wind.model = "air"`; the linear drag of the
-whole vehicle, `vehicle.drag`, is in `rigid_body`.
+Gusts have the 1 − cosine shape of MIL-F-8785C, section 3.7. Velocities are in world axes [m/s]. The drag is quadratic
+in the velocity through the air; the linear drag of the whole vehicle, `vehicle.drag`, is in `rigid_body`.
 """
 
 from __future__ import annotations
