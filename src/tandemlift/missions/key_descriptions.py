@@ -208,17 +208,12 @@ def _sections(name: str, field: FieldInfo) -> Iterator[Section]:
 
 def _keys(above: str, model: Model) -> tuple[Key, ...]:
     leaves = {name: field for name, field in model.model_fields.items() if table_in(field.annotation) is None}
-    acts, own = getattr(model, "acts", ""), getattr(model, "conditions", {})
-    conditions = {name: [one for one in (acts, own.get(name, "")) if one] for name in leaves}
-    return tuple(
-        Key(
-            f"{above}.{name}",
-            field,
-            description_of(field),
-            ", ".join(one for one in conditions[name] if not one.startswith(f"{above}.{name} ")),
-        )
-        for name, field in leaves.items()
-    )
+    return tuple(Key(f"{above}.{n}", f, description_of(f), _acts(model, n, above)) for n, f in leaves.items())
+
+
+def _acts(model: Model, name: str, above: str) -> str:
+    both = getattr(model, "acts", ""), getattr(model, "conditions", {}).get(name, "")
+    return ", ".join(one for one in both if one and not one.startswith(f"{above}.{name} "))
 
 
 def default_words(key: Key) -> str:
