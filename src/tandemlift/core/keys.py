@@ -10,6 +10,12 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validat
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError, core_schema
 
+__all__ = [
+    *("AtLeastOne", "AtLeastOne6", "Axes3", "Bandwidth", "Delay", "Exactly3", "Fraction", "KeyDescription", "Length"),
+    *("NonNegative", "NonNegative3", "NonNegative6", "PerAxis", "Positive", "Positive3", "Positive6", "Scale"),
+    *("Share", "Size", "Table", "Tilt", "Triple", "description_of", "key"),
+]
+
 SMALLEST = 1e-300  # of a divisor: its inverse is finite
 
 
@@ -109,6 +115,7 @@ class PerAxis:
 
 
 Triple = tuple[float, float, float]
+Axes3 = Annotated[Triple, PerAxis(3)]
 Positive3 = Annotated[tuple[Positive, Positive, Positive], PerAxis(3)]
 NonNegative3 = Annotated[tuple[NonNegative, NonNegative, NonNegative], PerAxis(3)]
 Exactly3 = Annotated[Triple, PerAxis(3, single=False)]
