@@ -70,7 +70,10 @@ TOLD = {  # of mission iris: changes, and what the warnings must say of them
         ["roll rate of 3 rad/s", "lower it to 2."],
     ),
     # wind
-    "gusts of no wind": ({**gusts((X2, 1.0, 1.0)), "wind.model": "none"}, ['do not blow while wind.model is "none"']),
+    "gusts of no wind": (
+        {**gusts((X2, 1.0, 1.0)), "wind.model": "none"},
+        ["wind.gusts.0.start", 'where wind.model = "air"'],
+    ),
     "eddies too low": (AIR | {"wind.height": 1.0}, ["wind.height = 1.0", "3.048 m to 304.8 m", "that of 3.048 m"]),
     "eddies too high": (AIR | {"wind.height": 400.0}, ["wind.height = 400.0", "that of 304.8 m"]),
     "wind along x": (wind(4.0, 0.0, **ROUGH), [HEARD, "admittance.threshold is 0.3 N", "controller.max_tilt = 0.25"]),

@@ -1,6 +1,7 @@
 """Each kind of finding in a flight that has it and in one that has not, against NumPy and SciPy on all of its steps."""
 
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -249,3 +250,14 @@ def test_a_landing_by_fault_is_found_while_the_supervision_also_notes_a_contact(
     state = state._replace(memory=state.memory._replace(guidance=guidance))
     (found,) = [f for f in findings_of(p, state, 1, "flying") if f.kind == "landed-by-fault"]
     assert (found.time, found.text) == (2.5, "landed because of a fault: tilted too far")
+
+
+def test_a_push_into_a_wall_without_response_names_the_wall():
+    walls = [{"start": [20.0, -3.0], "end": [20.0, 3.0]}, {"start": [1.2, -3.0], "end": [1.2, 3.0]}]
+    push = [{"force": [4.0, 0.0, 0.0], "time": 20.0, "sigma": 3.0}]
+    times = {"mission.duration": 32.0, "phases.land_start": None}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", tl.FlightWarning)
+        flight = tl.fly(tl.load_mission("iris", {"walls": walls, "pushes": push, **times}))
+    text = next(finding.text for finding in flight.findings if finding.kind == "no-response-to-push")
+    assert "walls.1 is in the way of the guard of quadrotor" in text

@@ -74,7 +74,7 @@ WRONG_NUMBERS = [
     case("no boundary layer", "controller.boundary_layer = 0", "controller.boundary_layer = 0", "6 numbers, each > 0"),
     case("steep roll", "initial.euler = [1.49, 0, 0]", "initial.euler = [1.49, 0, 0]", "1.49 rad is 85.4°"),
     case("degrees", "initial.euler = [0, -10, 0]", "a pitch", "-10 rad is -573°. Did you mean -0.1745 (-10°)?"),
-    case("roll of 85 degrees", "initial.euler = -1.4835298641951802", "initial.euler = -1.4835", "(±85°)"),
+    case("roll of 85 degrees", "initial.euler = [-1.48353, 0, 0]", "initial.euler = [-1.48353, 0, 0]", "(±85°)"),
     case("negative scale", "plant.inertia_scale = [1, -1, 1]", "plant.inertia_scale.1 = -1", "≥ 1e-06 and ≤ 1e+06"),
 ]
 

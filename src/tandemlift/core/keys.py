@@ -4,37 +4,16 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Mapping
-from typing import Annotated, Any, NamedTuple, get_args, get_origin
+from typing import Annotated, Any, ClassVar, NamedTuple, get_args, get_origin
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError, core_schema
 
 __all__ = [
-    "AtLeastOne",
-    "AtLeastOne6",
-    "Axes3",
-    "Bandwidth",
-    "Delay",
-    "Exactly3",
-    "Fraction",
-    "KeyDescription",
-    "Length",
-    "NonNegative",
-    "NonNegative3",
-    "NonNegative6",
-    "PerAxis",
-    "Positive",
-    "Positive3",
-    "Positive6",
-    "Scale",
-    "Share",
-    "Size",
-    "Table",
-    "Tilt",
-    "Triple",
-    "description_of",
-    "key",
+    *("AtLeastOne", "AtLeastOne6", "Axes3", "Bandwidth", "Delay", "Exactly3", "Fraction", "KeyDescription", "Length"),
+    *("NonNegative", "NonNegative3", "NonNegative6", "PerAxis", "Positive", "Positive3", "Positive6", "Scale"),
+    *("Share", "Size", "Table", "Tilt", "Triple", "description_of", "key"),
 ]
 
 SMALLEST = 1e-300  # of a divisor: its inverse is finite
@@ -66,9 +45,22 @@ Length = Annotated[float, Field(gt=0.0, le=1e3), AfterValidator(divisor)]  # m
 
 
 class Table(BaseModel):
-    """A strict, frozen table of a mission."""
+    """A strict, frozen table of a mission.
+
+    A table may say when it acts: `acts` is the condition without which none of its keys does, and `keys_act` has those
+    of some of its keys, by their names. A condition is text such as 'wind.model = "air"', "wind.turbulence > 0" or
+    "person.path is given"; values and alternatives are joined by " or ", conditions by " and ". After "also ", it is
+    one by which a key acts whatever its tables say.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False, validate_default=True)
+    acts: ClassVar[str] = ""
+    conditions: ClassVar[Mapping[str, str]] = {}
+
+    def __init_subclass__(cls, *, acts: str = "", keys_act: Mapping[str, str] | None = None, **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        own = {name: condition for names, condition in (keys_act or {}).items() for name in names.split()}
+        cls.acts, cls.conditions = acts or cls.acts, {**cls.conditions, **own}
 
     @model_validator(mode="before")
     @classmethod
@@ -92,18 +84,27 @@ def is_number(value: Any) -> bool:
 
 
 class PerAxis:
-    """Marks a key given per axis: one number for all `count` axes (unless `single` is False), or one number each."""
+    """Marks a key given per axis: one number for all `count` axes, or one number each.
+
+    A vector in space has a direction, so its numbers may be negative: it is not `single`, and no number but 0 stands
+    for all three.
+    """
 
     def __init__(self, count: int, *, single: bool = True) -> None:
         self.count, self.single = count, single
 
     def describe(self, limits: str) -> str:
         """The allowed values in words; `limits` is the condition on each number."""
-        return f"{'one number or ' if self.single else ''}a list of {self.count} numbers{limits and ', each ' + limits}"
+        short = "one number or " if self.single else "0 or " if self.count == 3 else ""
+        return f"{short}a list of {self.count} numbers{limits and ', each ' + limits}"
+
+    def is_short(self, value: Any) -> bool:
+        """Whether a value is one number that stands for all axes."""
+        return is_number(value) and (self.single or (value == 0 and self.count == 3))
 
     def spread(self, value: Any) -> Any:
         """The numbers of all axes."""
-        if self.single and is_number(value):
+        if self.is_short(value):
             return (value,) * self.count
         if isinstance(value, (list, tuple)) and len(value) == self.count and all(map(is_number, value)):
             return tuple(value)

@@ -79,7 +79,9 @@ def _largest_thrust(flight: Flight) -> str:
         return ""
     largest = np.nanmax(thrusts, axis=0)
     k = int(np.argmax(largest / most))
-    share = f"{largest[k]:8.2f} N of {most[k]:.2f} N ({largest[k] / most[k]:.0%})"
+    over = largest[k] > most[k] * 1.001 and flight.mission["ground"]["effect"]  # a limit is of thrust in free air
+    why = " in free air; more by ground effect" if over else ""
+    share = f"{largest[k]:8.2f} N of {most[k]:.2f} N{why} ({largest[k] / most[k]:.0%})"
     return f"{share}, rotor {k % 4 + 1} of quadrotor {k // 4 + 1}"
 
 

@@ -8,6 +8,7 @@ A function that needs a part of a mission takes that table, or `Mission.hover`: 
 
 from tandemlift.missions.changes import format_toml, merge, tables_of
 from tandemlift.missions.checking import changed, check
+from tandemlift.missions.keys.acting import IdleKey, idle_keys, sentences
 from tandemlift.missions.loading import (
     DATA,
     MissionLike,
@@ -30,6 +31,7 @@ from tandemlift.missions.mission import (
 __all__ = [
     "DATA",
     "HoverFacts",
+    "IdleKey",
     "InitialTable",
     "Mission",
     "MissionLike",
@@ -42,9 +44,11 @@ __all__ = [
     "check",
     "check_keys",
     "format_toml",
+    "idle_keys",
     "load_mission",
     "merge",
     "mission_from_text",
     "mission_of",
+    "sentences",
     "tables_of",
 ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import functools
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -14,8 +14,11 @@ from pydantic.fields import FieldInfo
 
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.files import parts_of
-from tandemlift.core.keys import PerAxis, is_number
+from tandemlift.core.keys import PerAxis
 from tandemlift.missions.key_descriptions import Model, table_in
+from tandemlift.missions.keys.places import Place as Place
+from tandemlift.missions.keys.places import Tables as Tables
+from tandemlift.missions.keys.places import places_in as places_in
 from tandemlift.missions.mission import Mission
 from tandemlift.parts.controllers import CONTROLLERS
 from tandemlift.parts.interaction.admittance import with_feel
@@ -57,7 +60,7 @@ def _axis_by_axis(tables: Tables, parts: list[str]) -> Tables:
         at = at.get(part, {} if table_in(field.annotation) else field.default)
         model = _controller_of(at) if part == "controller" else table_in(field.annotation)
     axes = next((mark for mark in getattr(field, "metadata", ()) if isinstance(mark, PerAxis)), None)
-    if axes is None or not (isinstance(at, tuple) or (axes.single and is_number(at))):
+    if axes is None or not (isinstance(at, tuple) or axes.is_short(at)):
         return tables
     return _with(tables, above, list(at) if isinstance(at, tuple) else [at] * axes.count, "")
 
@@ -108,34 +111,6 @@ def without_old_shape(tables: Tables, changes: Tables) -> Tables:
     return tables if kept == old else {**tables, "vehicle": {**tables["vehicle"], "payload": kept}}
 
 
-def without_entries(tables: Mapping[str, Any], above: str = "") -> tuple[Tables, list[tuple[str, Any]]]:
-    """Tables without those whose keys are numbers, and the values of these by dotted key.
-
-    So a file may say `vehicle.quadrotors.0.position = …` of a list in the mission that it extends.
-    """
-    kept, entries = Tables(), list[tuple[str, Any]]()
-    for name, value in tables.items():
-        key = f"{above}{name}"
-        if not isinstance(value, dict):
-            kept[name] = value
-        elif any(part.isdecimal() for part in value):
-            entries += _leaves(value, key)
-        else:
-            kept[name], inner = without_entries(value, f"{key}.")
-            entries += inner
-    return kept, entries
-
-
-def _leaves(value: object, key: str) -> Iterator[tuple[str, Any]]:
-    if isinstance(value, dict) and value:
-        for name, part in value.items():
-            yield from _leaves(part, f"{key}.{name}")
-    else:
-        yield key, value
-
-
-Place = tuple[str | int, ...]
-Tables = dict[str, Any]
 MISSING = object()
 
 

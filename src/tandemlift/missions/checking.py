@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from pydantic import BaseModel, ValidationError
@@ -12,6 +12,7 @@ from tandemlift.core.errors import FlightWarning, InputError, accepted, shown, s
 from tandemlift.missions.changes import MISSING, Place, Tables, changed_tables, tables_of, value_at
 from tandemlift.missions.checks import mission_checks, refusals
 from tandemlift.missions.flight_checks import worst_failures
+from tandemlift.missions.keys.acting import idle_as_said
 from tandemlift.missions.mission import Mission
 from tandemlift.missions.refusals import Problem, problems_in
 from tandemlift.parts.controllers import CONTROLLERS, ControllerTable
@@ -47,6 +48,7 @@ def check(
     *,
     known: Checked | None = None,
     quiet: bool = False,
+    changes: Mapping[str, Any] | None = None,
 ) -> Mission:
     """A checked mission from nested tables.
 
@@ -56,6 +58,7 @@ def check(
         layers: the files that they are from.
         known: tables checked before; identical objects that `tables` shares with them are not checked again.
         quiet: omit the warnings of a mission that is expected to fly badly.
+        changes: those that `tables` have beyond the layers, by dotted key.
 
     Raises:
         InputError: something is missing, unknown, of the wrong type, out of range, or cannot fly.
@@ -65,6 +68,7 @@ def check(
         _refuse(problems, tables, source, layers)
     try:
         results = accepted(refusals(mission) if quiet else mission_checks(mission))
+        idle = [] if quiet else idle_as_said(mission, [layer.tables for layer in layers], changes or {})
         later, before = mission, 0.0
         for i, c in enumerate(mission.changes):
             if c.time < before:
@@ -73,12 +77,13 @@ def check(
                 )
             try:
                 later, before = changed(later, c.key, c.value), c.time
+                idle += [f"changes.{i}: {text}" for text in idle_as_said(later, (), {c.key: c.value})]
             except InputError as error:
                 raise InputError(f"changes.{i}: {error}") from None
     except InputError as error:
         raise InputError(f"{source}: {error}") from None
-    for result in worst_failures(results):
-        warnings.warn(f"{source}: {result.text}", FlightWarning, stacklevel=4)
+    for text in [*(result.text for result in worst_failures(results)), *([] if quiet else idle)]:
+        warnings.warn(f"{source}: {text}", FlightWarning, stacklevel=4)
     return mission
 
 

@@ -111,7 +111,7 @@ def _spread(mark: object, annotation: object) -> Schema:
     """The schema of a key given per axis: a list, or a shorter form that its mark accepts."""
     whole = _leaf(annotation)
     if not getattr(mark, "single", True):
-        return whole
+        return {"anyOf": [whole, {"const": 0}]} if getattr(mark, "count", 0) == 3 else whole
     forms, inner = [whole], whole
     while inner["type"] == "array":
         inner = inner["items"]

@@ -83,11 +83,15 @@ def plain(annotation: object) -> object:
 
 
 class Key(NamedTuple):
-    """A key of a mission: dotted name, in which 0 stands for any entry of a list of tables, type and description."""
+    """A key of a mission: dotted name, in which 0 stands for any entry of a list of tables, type and description.
+
+    `acts`: the condition of its table and its own without which it does not act; "" if there is none.
+    """
 
     name: str
     field: FieldInfo
     facts: KeyDescription
+    acts: str = ""
 
     @property
     def allowed(self) -> str:
@@ -204,7 +208,12 @@ def _sections(name: str, field: FieldInfo) -> Iterator[Section]:
 
 def _keys(above: str, model: Model) -> tuple[Key, ...]:
     leaves = {name: field for name, field in model.model_fields.items() if table_in(field.annotation) is None}
-    return tuple(Key(f"{above}.{name}", field, description_of(field)) for name, field in leaves.items())
+    return tuple(Key(f"{above}.{n}", f, description_of(f), _acts(model, n, above)) for n, f in leaves.items())
+
+
+def _acts(model: Model, name: str, above: str) -> str:
+    both = getattr(model, "acts", ""), getattr(model, "conditions", {}).get(name, "")
+    return ", ".join(one for one in both if one and not one.startswith(f"{above}.{name} "))
 
 
 def default_words(key: Key) -> str:

@@ -20,10 +20,10 @@ from tandemlift.missions.changes import (
     merge,
     tables_of,
     value_at,
-    without_entries,
     without_old_shape,
 )
 from tandemlift.missions.checking import Layer, as_checked, check
+from tandemlift.missions.keys.places import without_entries
 from tandemlift.missions.mission import Mission
 from tandemlift.missions.recording import unpacked_recording
 from tandemlift.parts.controllers import CONTROLLERS, Controller
@@ -158,7 +158,7 @@ def load_mission(
         raise InputError(f'changes = {shown(changes)}: must be a dictionary such as {{"mission.duration": 5.0}}')
     with _named(name):
         tables, layers = read_tables(name, controller)
-        return check(_with_changes(tables, changes or {}, layers), layers[-1].source, layers)
+        return check(_with_changes(tables, changes or {}, layers), layers[-1].source, layers, changes=changes)
 
 
 def mission_from_text(name: str, text: str) -> Mission:
@@ -251,7 +251,8 @@ class MissionTemplate:
         with _named(self._layers[-1].source):
             tables = self._own if again else self._common
             tables = _with_changes(tables, {**self.changes, **changes} if again else changes, layers)
-            return check(tables, layers[-1].source, layers, known=self._known, quiet=self.quiet)
+            said = {**self.changes, **changes}
+            return check(tables, layers[-1].source, layers, known=self._known, quiet=self.quiet, changes=said)
 
 
 @contextmanager

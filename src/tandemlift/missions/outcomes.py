@@ -23,7 +23,7 @@ Frequency = Annotated[float, Field(gt=0.0, le=1e4)]  # Hz
 Periods = Annotated[int, Field(ge=2, le=1000)]
 
 
-class CrashTable(Table):
+class CrashTable(Table, keys_act={"impulse": 'ground.model = "floor"', "fence_margin": 'supervision.model = "on"'}):
     """`[crash]`: limits beyond which a flight ends as crashed; see docs/reference/outcomes.md."""
 
     tilt: Annotated[float, Field(gt=0.0, le=3.2)] = key(
@@ -57,7 +57,7 @@ class CrashTable(Table):
     )
 
 
-class OutcomeTable(Table):
+class OutcomeTable(Table, keys_act={"landed_height": 'ground.model = "none"'}):
     """`[outcome]`: criteria for a lift and for a landing; see docs/reference/outcomes.md."""
 
     lifted_height: Positive = key(
@@ -144,7 +144,7 @@ def promise_of(p: PromiseTable, guidance: str) -> Promise:
     return Promise(distance, p.rms_distance, p.heading, p.tilt, settled)
 
 
-class FindingsTable(Table):
+class FindingsTable(Table, keys_act={"saturated_time saturated_fraction reach_time": 'actuators.model = "rotors"'}):
     """`[findings]`: thresholds of findings; see docs/reference/outcomes.md."""
 
     ignore: tuple[FindingName, ...] = key((), None, "kinds of findings that are not reported")

@@ -13,6 +13,7 @@ from typing import Any
 from tandemlift.core.errors import InputError, shown, written
 from tandemlift.core.files import parts_of
 from tandemlift.missions.key_descriptions import EXTENDS, PAPER, Key, Section, default_words, sections
+from tandemlift.missions.keys.renamed import present_name
 
 NEAREST = 3
 
@@ -77,6 +78,7 @@ def lines_of(key: Key) -> list[str]:
         lines.append(f"{last}If left out: {default_words(key)}{source}.")
     else:
         lines.append(f"{last}Default: {default_words(key)}{source}.")
+    lines[-1] += f" Acts where {key.acts}." if key.acts else ""
     return lines
 
 
@@ -105,9 +107,11 @@ def _in_short(key: Key) -> str:
 
 
 def _unknown(name: str, plain: str) -> InputError:
-    near = nearest_three(
-        plain[:100], {plain_name(key.name): key.name for section in sections() for key in section.keys}
-    )
+    if (now := present_name(plain)) != plain:
+        return InputError(f"there is no key {shown(name)}; it is {now} now")
+    names = {plain_name(key.name): key.name for section in sections() for key in section.keys}
+    table = {short: long for short, long in names.items() if short.rpartition(".")[0] == plain.rpartition(".")[0]}
+    near = nearest_three(plain[:100], table or names)
     return InputError(f"there is no key {shown(name)}; the nearest are {', '.join(near)}")
 
 

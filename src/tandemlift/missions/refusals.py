@@ -12,9 +12,10 @@ from pydantic_core import ErrorDetails
 
 from tandemlift.core.errors import dotted, nearest, shown
 from tandemlift.core.files import QUANTITY
-from tandemlift.core.keys import description_of
+from tandemlift.core.keys import description_of, is_number
 from tandemlift.missions.changes import MISSING, Place, value_at
 from tandemlift.missions.key_descriptions import Model, allowed, plain, table_in
+from tandemlift.missions.keys.renamed import present_name
 
 MOST = 64  # problems with a sentence, more than are told: those of a file of garbage would take seconds
 BY_ANNOTATION = (  # prefixes of the kinds of error for which the annotation has the allowed values
@@ -99,6 +100,8 @@ def _rule(problem: ErrorDetails, field: FieldInfo | None, entry: bool) -> str:
 
 def _hint(problem: ErrorDetails, field: Any, given: object) -> str:
     kind = problem["type"]
+    if kind == "axes" and is_number(given):
+        return f", such as [{', '.join([shown(given), *['0'] * (len(get_args(plain(field.annotation))) - 1)])}]"
     if isinstance(given, str) and kind == "literal_error":
         options = get_args(plain(field.annotation))
         options = get_args(options[0]) or options  # of an entry of a list
@@ -126,6 +129,8 @@ def _unknown_key(model: Model, problem: ErrorDetails, data: object, prefix: Plac
     elsewhere = next((place for place in keys_of(model) if place[-1] == name), None)
     meant = (*where, near) if near else elsewhere and (*prefix, *elsewhere)
     hint = f". Did you mean {dotted(meant)}?" if meant else ""
+    former = ".".join(part for part in map(str, (*where, name)) if not part.isdigit())
+    hint = f". It is {now} now" if (now := present_name(former)) != former else hint
     this = f"{dotted(where)} has" if where else f"{whole} has the tables"
     given = f"{dotted((*where, name))} = {shown(value_at(data, problem['loc']))}"
     return (*above, name), f"{given}: unknown key; {this} {', '.join(names)}{hint}"

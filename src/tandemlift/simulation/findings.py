@@ -20,7 +20,7 @@ from tandemlift.simulation.loop.oscillation import Swings
 from tandemlift.simulation.loop.step import FlightState
 from tandemlift.simulation.outcome import landing_time
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.touches import touches_of
+from tandemlift.simulation.touches import touches_of, wall_at
 
 SIGNALS = {  # of `simulation.loop.oscillation.Swings`: name, unit
     "roll": ("roll rate", "rad/s"),
@@ -46,7 +46,7 @@ def findings_of(p: FlightPlan, flight_state: FlightState, steps: int, outcome: s
         *_deviations(d, promise, promise.rms_promised(mission.pilot.guidance), limits.reach_distance, p.dt),
         *_saturations(d.saturation, steps, limits, p.dt),
         *_out_of_reach(d.reach, p),
-        *_unanswered(d.push.unanswered, p.dt),
+        *_unanswered(d.push.unanswered, p, flight_state),
         *_unpushed(d.unpushed.excess, limits.unpushed_distance, p.dt),
         *_refuted(d.refuted, limits.refuted_time, p.dt),
         *_cannot_follow(flight_state, mission.compliance.following.heading_timeout),
@@ -162,11 +162,16 @@ def _out_of_reach(m: Excess | Absent, p: FlightPlan) -> Iterator[Finding]:
     yield _excess("out-of-reach", text, m, p.dt, "thrust that the reference needs", needed, "N", most)
 
 
-def _unanswered(m: Excess, dt: float) -> Iterator[Finding]:
-    """The finding of a push without response."""
-    if m.steps:
-        text = f"the vehicle does not respond to a push of up to {m.worst:.3g} N for {m.steps * dt:.3g} s"
-        yield _excess("no-response-to-push", text, m, dt, "push", m.worst, "N", worst=False)
+def _unanswered(m: Excess, p: FlightPlan, flight_state: FlightState) -> Iterator[Finding]:
+    """The finding of a push without response; of one into a wall, with the wall that the vehicle touches there."""
+    if not m.steps:
+        return
+    text = f"the vehicle does not respond to a push of up to {m.worst:.3g} N for {m.steps * p.dt:.3g} s"
+    size = max(math.hypot(*q.position) + q.guard_radius for q in p.mission.vehicle.quadrotors)
+    walls = [t for t in touches_of(flight_state) if t.surface == "wall" and t.time < m.start + m.stretch]
+    if at := next((t for t in walls if math.dist(t.place, m.place) < size), None):
+        text += f": {wall_at(p.mission, at.place)} is in the way of the {at.part}"
+    yield _excess("no-response-to-push", text, m, p.dt, "push", m.worst, "N", worst=False)
 
 
 def _unpushed(m: Excess, limit: float, dt: float) -> Iterator[Finding]:

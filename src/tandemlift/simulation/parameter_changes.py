@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array, flat, leaves
 from tandemlift.core.vector import Absent, layout
-from tandemlift.missions import changed
+from tandemlift.missions import changed, idle_keys, sentences
 from tandemlift.missions.recording import read_recording
 from tandemlift.parts.interaction.virtual_hand import HAND_RELEASED
 from tandemlift.simulation.plan import FlightPlan
@@ -79,7 +79,7 @@ def _check(before: FlightPlan, after: FlightPlan, key: str) -> None:
         raise InputError(f"{key} {LATER}")
     if before.variant == after.variant:
         if _parameters(before) == _parameters(after) and before.mission.model_copy(update=STEADY) != after.mission:
-            raise InputError(f"{key} {NO_EFFECT}")
+            raise InputError(*sentences(after.mission, idle_keys(after.mission, [key])) or [f"{key} {NO_EFFECT}"])
         return
     if before.interpreted or after.interpreted:
         name = (before if before.interpreted else after).mission.controller.name

@@ -145,3 +145,34 @@ def test_a_terminal_is_asked_for_what_no_option_gives_and_again_after_a_wrong_an
     assert "center [" not in output
     payload = tl.load_mission(str(tmp_path / "a.toml")).vehicle.payload
     assert (payload.length, payload.mass) == (0.4, 0.02)
+
+
+def soles(mission):
+    return [q.position[2] - q.feet_depth for q in mission.vehicle.quadrotors]
+
+
+def test_two_models_are_written_as_given_with_level_soles_and_fly(new, tmp_path):
+    code, told, _ = new("a.toml", "--quadrotor", "iris", "--quadrotor", "x500")
+    assert code == 0
+    assert told.startswith("iris and x500 and a beam of 2 m")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        mission = tl.load_mission(str(tmp_path / "a.toml"))
+    assert [(q.mass, q.position[1]) for q in mission.vehicle.quadrotors] == [(1.5, 1.0), (2.064, -1.0)]
+    assert soles(mission)[0] == pytest.approx(soles(mission)[1])
+    assert tl.fly(mission).outcome == "landed"
+
+
+def test_two_models_of_which_one_cannot_lift_its_share_and_a_third_one_are_refused(new, tmp_path):
+    code, _, error = new("a.toml", "--quadrotor", "crazyflie", "--quadrotor", "x500")
+    assert code != 0
+    assert "crazyflie and x500 lift a beam of 1.2 m and at most 0 kg" in error
+    code, _, error = new("a.toml", *["--quadrotor", "iris"] * 3)
+    assert code != 0
+    assert "--quadrotor is given 3 times" in error
+    assert not any(tmp_path.iterdir())
+
+
+def test_soles_that_are_not_level_are_warned_of():
+    with pytest.warns(tl.FlightWarning, match=r"the soles of quadrotor 2 are 0\.02 m above those of quadrotor 1"):
+        tl.load_mission("iris", {"vehicle.quadrotors.0.feet_depth": 0.2})

@@ -57,7 +57,11 @@ def print_checks(results: Sequence[CheckResult]) -> None:
     if not results:
         echo("no check applies to this mission")
         return
-    tight = sorted((r.margin, f"{r.check} {r.subject}".rstrip()) for r in results if r.margin is not None)
+    tight = sorted(
+        (r.margin, f"{r.check} {r.subject}".rstrip())
+        for r in results
+        if r.margin is not None and (r.margin >= 0 or r.verdict == FAILS)
+    )
     if len(tight) > CLOSEST:
         echo("closest to their limits: " + ", ".join(f"{name} ({100 * left:.0f} %)" for left, name in tight[:CLOSEST]))
         echo("")

@@ -53,7 +53,7 @@ def sides(centreline: Sequence[Sequence[float]], width: float) -> tuple[NDArray[
     return line + 0.5 * width * mitre, line - 0.5 * width * mitre
 
 
-class CorridorTable(Table):
+class CorridorTable(Table, acts="corridor.centreline is given"):
     """`[corridor]`: walls on both sides of a centreline, mitred at its corners; they need `ground.model = "floor"`.
 
     They add to those of `[[walls]]`. A person without a path of their own follows the centreline.

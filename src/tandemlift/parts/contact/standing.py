@@ -23,13 +23,14 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
 
 DEEP = 0.02  # m, of feet in the floor at the start
+LEVEL = 0.005  # m, between the soles of two quadrotors
 FAR_DOWN, FAR_UP = 0.02, 0.3  # m, of the landed reference above and below the height of the standing vehicle
 THROWN = 5.0  # times its sinkage
 NEARLY = 0.75  # of the impulse that ends a flight, as a contact returns some of it
 SOFT = 2.0  # times the specified sinkage
 
 
-class GroundTable(Table):
+class GroundTable(Table, acts='ground.model = "floor"'):
     """`[ground]`: a level floor with friction. Feet stand on it; rotors, guards and beam touch it in all attitudes.
 
     A rotor that touches floor or wall stops for the rest of the flight.
@@ -132,7 +133,7 @@ def depth_checks(g: GroundTable, initial: InitialTable, standing: Standing) -> I
 def floor_warnings(
     g: GroundTable, vehicle: VehicleTable, rotors: str, step: float, standing: Standing
 ) -> Iterator[CheckResult]:
-    """Check for a soft floor, ideal rotors on a floor, and a payload lower than the feet."""
+    """Check for a soft floor, ideal rotors on a floor, soles that are not level, and a payload lower than the feet."""
     if standing.sinkage > SOFT * g.sinkage:
         yield warned(
             f"ground.sinkage = {g.sinkage} m: with mission.step = {step} s the floor must be softer, "
@@ -143,7 +144,14 @@ def floor_warnings(
             'actuators.model = "ideal": thrusts have no limits and may pull down, so the pilot may press the vehicle '
             'on the floor with the force of an impact; "rotors" cannot'
         )
-    lower = min(q.position[2] - q.feet_depth for q in vehicle.quadrotors) - float(vehicle.payload.box[0][2])
+    soles = [q.position[2] - q.feet_depth for q in vehicle.quadrotors]
+    high, low = (pick(range(len(soles)), key=soles.__getitem__) for pick in (max, min))
+    if soles[high] - soles[low] > LEVEL:
+        yield warned(
+            f"the soles of quadrotor {high + 1} are {soles[high] - soles[low]:.3g} m above those of quadrotor "
+            f"{low + 1}: the vehicle does not stand level; change position or feet_depth of one"
+        )
+    lower = soles[low] - float(vehicle.payload.box[0][2])
     if lower > 0.0:
         yield warned(f"the payload hangs {lower:.3g} m lower than the feet: the vehicle stands on it, and may roll")
 

@@ -79,7 +79,13 @@ class Gains(Table):
     a: AtLeastOne6 = key(..., "1", "exponent of the terminal part", example=3.0)
 
 
-class NFTSMCSettings(ControllerTable):
+class NFTSMCSettings(
+    ControllerTable,
+    keys_act={
+        "filter_bandwidth smoothing_bandwidth": 'controller.attitude_reference_derivatives = "filtered"',
+        "boundary_layer": 'controller.switching = "saturation" or "tanh"',
+    },
+):
     """`[controller]`: settings of nftsmc, the paper's controller."""
 
     name: Literal["nftsmc"] = "nftsmc"

@@ -16,7 +16,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tandemlift.core.algebra import clip
-from tandemlift.core.keys import Axes3, NonNegative3, Positive3, key
+from tandemlift.core.keys import NonNegative3, Positive3, Triple, key
 from tandemlift.core.law import law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Vec3, vec3
@@ -146,7 +146,7 @@ def start(s: PIDSettings, vehicle: Vehicle, step: float) -> tuple[PID, PIDState]
     """Cascaded PID: position P, velocity PID, attitude P, rate PID, with anti-windup."""
     smoothing = low_pass(s.derivative_bandwidth, step)
 
-    def stage(p: Axes3, i: Axes3, d: Axes3, limit: Axes3) -> PIDGains:
+    def stage(p: Triple, i: Triple, d: Triple, limit: Triple) -> PIDGains:
         return PIDGains(vec3(p), vec3(i) * step, vec3(d), vec3(limit), smoothing)
 
     rest = PIDStageState(ZERO, LowPassState(ZERO, ZERO))

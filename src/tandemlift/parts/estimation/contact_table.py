@@ -18,7 +18,7 @@ from tandemlift.parts.mechanics.rigid_body import inertia_value
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
-class ContactTable(Table):
+class ContactTable(Table, acts='contact.model = "on"'):
     """`[contact]`: distinction of contact with a wall from a push and from a faulty sensor, and the reaction to it.
 
     It needs `pilot.guidance = "interactive"`, `pilot.push` other than "truth", and rotors that push along body z alone,

@@ -44,7 +44,11 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import Mixer, wrench
 
 
-class ObserverTable(Table):
+class ObserverTable(
+    Table,
+    acts='observer.model = "extended-state" or "super-twisting"',
+    keys_act={"force_slope moment_slope": 'observer.model = "super-twisting"'},
+):
     """`[observer]`: a disturbance observer, which separates wind and model error from the person's push.
 
     The controller compensates its estimate. It is driven by the thrusts that the allocation could give, so it needs

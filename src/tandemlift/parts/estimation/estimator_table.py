@@ -14,7 +14,17 @@ from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.parts.sensors.sensors_table import SensorsTable, noise_scale, steps_of
 
 
-class EstimatorTable(Table):
+class EstimatorTable(
+    Table,
+    acts='sensors.model = "simulated"',
+    keys_act={
+        "wind_bandwidth": 'estimator.wind_compensation = "quadrotors"',
+        "tare_start": 'estimator.tare = "at-time"',
+        "tare_duration": 'estimator.tare_start is given or estimator.tare = "hover"',
+        "disagreement_limit": 'estimator.wrench = "joints" or "fused"',
+        "confirmation": 'estimator.wrench = "joints"',
+    },
+):
     """`[estimator]`: the push from the joints' force sensors, and the state from inertial and motion sensors.
 
     The push is the force that accelerates the payload and does not come through a joint: wind on the payload is part of

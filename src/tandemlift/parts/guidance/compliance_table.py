@@ -13,7 +13,7 @@ from tandemlift.parts.interaction.policy import PolicyTable, start_policy
 from tandemlift.parts.mechanics.low_pass import low_pass
 
 
-class ComplianceTable(Table):
+class ComplianceTable(Table, acts='pilot.guidance = "interactive"'):
     """`[compliance]`: interactive guidance, around mass, damping, stiffness and threshold of `[admittance]`.
 
     It applies where `pilot.guidance = "interactive"`: measured push → low-pass → dead band → low-pass → admittance →

@@ -24,7 +24,7 @@ from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import body_z_axis
 
 Corner = Annotated[float, Field(ge=-1e3, le=1e3)]  # m
-Corners = Annotated[tuple[Corner, Corner, Corner], PerAxis(3)]
+Corners = Annotated[tuple[Corner, Corner, Corner], PerAxis(3, single=False)]
 
 
 class FenceTable(Table):

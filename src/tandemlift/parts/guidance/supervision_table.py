@@ -42,7 +42,7 @@ class ReactionsTable(create_model("Reactions", __base__=Table, **_REACTION_KEYS)
     """`[supervision.reactions]`: the reaction to each fault, in the order of their priority."""
 
 
-class SupervisionTable(Table):
+class SupervisionTable(Table, acts='supervision.model = "on"'):
     """`[supervision]`: checks, watchdogs, limits and reactions in flight; see docs/explanation/safety.md."""
 
     model: Literal["none", "on"] = key(

@@ -22,7 +22,9 @@ from tandemlift.parts.mechanics.rotation import heading_from, wrap_angle
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
-class YawTable(Table):
+class YawTable(
+    Table, acts='compliance.yaw.model = "compliant"', keys_act={"threshold": 'also estimator.confirmation = "motion"'}
+):
     """`[compliance.yaw]`: rotation of the vehicle by a push beside the centre of mass."""
 
     model: Literal["held", "compliant"] = key(

@@ -20,7 +20,7 @@ from tandemlift.core.types import Number
 from tandemlift.core.vector import Absent, Vec3, dot
 
 
-class TankTable(Table):
+class TankTable(Table, acts='compliance.tank.model = "tank"'):
     """`[compliance.tank]`: an energy tank that keeps interactive guidance passive.
 
     Damping is added where the person has put in too little energy.

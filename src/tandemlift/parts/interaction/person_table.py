@@ -31,7 +31,7 @@ from tandemlift.parts.mechanics.rotation import heading_from
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
-class WaypointTable(Table):
+class WaypointTable(Table, keys_act={"heading": 'person.model = "two-hands"'}):
     """`[[person.path]]`: waypoints, one table each, joined by straight lines."""
 
     point: Point2 = key(
@@ -48,7 +48,14 @@ class WaypointTable(Table):
     dwell: NonNegative = key(0.0, "s", "time for which the person keeps the vehicle there")
 
 
-class PersonTable(Table):
+class PersonTable(
+    Table,
+    acts='person.model = "pull" or "steer" or "two-hands" or "hold"',
+    keys_act={
+        "yaw_gain yaw_damping max_couple": 'person.model = "two-hands"',
+        "grip": 'person.model = "pull" or "steer" or "hold"',
+    },
+):
     """`[person]`: a person in the loop, who sees the vehicle with a delay and leads it by hand along a path.
 
     The person's view is delayed by `delay`. The person predicts the vehicle's present place from it. The desired force

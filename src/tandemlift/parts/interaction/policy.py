@@ -41,7 +41,7 @@ SHIPPED = (
 # fmt: on
 
 
-class PolicyTable(Table):
+class PolicyTable(Table, acts='compliance.policy.model = "network"'):
     """`[compliance.policy]`: a trained network that sets the damping of `[admittance]` along a push and across it.
 
     `tandemlift train` finds weights. The admittance stays passive whatever they are.

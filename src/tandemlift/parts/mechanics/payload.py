@@ -32,7 +32,9 @@ OWN = {  # keys of one shape
 }
 
 
-class Payload(Table):
+class Payload(
+    Table, keys_act={"drag_area drag_coefficient": 'wind.model = "air" or estimator.confirmation = "motion"'}
+):
     """`[vehicle.payload]`: a beam along body y, a box, a mesh, bodies, or any with a mass and moments of inertia.
 
     Positions on the vehicle are from the payload's origin: the middle of a beam or a box, whether its mass is even or

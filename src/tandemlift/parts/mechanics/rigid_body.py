@@ -14,7 +14,7 @@ from pydantic import AfterValidator
 
 from tandemlift.core.algebra import sqrt
 from tandemlift.core.arrays import largest
-from tandemlift.core.keys import Axes3, Table, Triple, key, must
+from tandemlift.core.keys import Exactly3, Table, Triple, key, must
 from tandemlift.core.law import choice, law
 from tandemlift.core.types import GRAVITY, Number
 from tandemlift.core.vector import (
@@ -81,18 +81,18 @@ def _upright(euler: Triple) -> Triple:
 class InitialTable(Table):
     """`[initial]`: the state at the start, t = 0."""
 
-    position: Axes3 = key(
+    position: Exactly3 = key(
         (0.0, 0.0, 0.0), "m", "position of the system's centre of mass, world axes", example=[0.3, -0.3, 0.0]
     )
-    velocity: Axes3 = key((0.0, 0.0, 0.0), "m/s", "velocity of the system's centre of mass, world axes")
-    euler: Annotated[Axes3, AfterValidator(_upright)] = key(
+    velocity: Exactly3 = key((0.0, 0.0, 0.0), "m/s", "velocity of the system's centre of mass, world axes")
+    euler: Annotated[Exactly3, AfterValidator(_upright)] = key(
         (0.0, 0.0, 0.0),
         "rad",
         "roll, pitch and yaw; R = Rz(yaw) Rx(roll) Ry(pitch)",
         rule="roll and pitch within ±1.4835 rad (±85°)",
         example=[0.15, -0.15, 0.2],
     )
-    rates: Axes3 = key((0.0, 0.0, 0.0), "rad/s", "angular velocity, body axes")
+    rates: Exactly3 = key((0.0, 0.0, 0.0), "rad/s", "angular velocity, body axes")
 
 
 UP = Vec3(0.0, 0.0, 1.0)

@@ -9,7 +9,6 @@ import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 
 from tandemlift.core.keys import (
-    Axes3,
     Exactly3,
     Length,
     NonNegative,
@@ -36,8 +35,8 @@ COINCIDING = 1e-3  # m
 class DisturbanceTable(Table):
     """`[disturbance]`: a constant force and moment that are unknown to the pilot."""
 
-    force: Axes3 = key((0.0, 0.0, 0.0), "N", "force at the modelled centre of mass, world axes")
-    moment: Axes3 = key((0.0, 0.0, 0.0), "N m", "moment, body axes")
+    force: Exactly3 = key((0.0, 0.0, 0.0), "N", "force at the modelled centre of mass, world axes")
+    moment: Exactly3 = key((0.0, 0.0, 0.0), "N m", "moment, body axes")
 
 
 class PlantTable(Table):
@@ -63,12 +62,19 @@ class PlantTable(Table):
     )
 
 
-class Quadrotor(Table):
+class Quadrotor(
+    Table,
+    keys_act={
+        "thrust_constant max_speed max_thrust lag_up lag_down": 'actuators.model = "rotors"',
+        "drag_area drag_coefficient": 'wind.model = "air" or estimator.confirmation = "motion"',
+        "feet_spread feet_depth rotor_radius rotor_height guard_radius": 'ground.model = "floor"',
+        "layout arm": "vehicle.quadrotors.0.rotor_positions is left out",
+    },
+):
     """`[[vehicle.quadrotors]]`: one table for each quadrotor, 1 to 64 of them, rigidly fixed to the payload.
 
-    They are at least 1 mm apart, and no rotor strikes another. One with a `heading` is turned about body z, with all
-    that is its own. Thrust stays along body z. Readings of its joint are along the body axes, whatever its heading. In
-    dotted keys, the first has the number 0.
+    They are at least 1 mm apart, and no rotor strikes another. One with a `heading` is turned about body z, with all of
+    its own but the thrust and the readings of its joint, which are along body axes. In keys, the first has number 0.
     """
 
     mass: Positive = key(..., "kg", "mass of the quadrotor", example=1.5)
@@ -119,11 +125,7 @@ class Quadrotor(Table):
     thrust_constant: Positive = key(..., "N/(rad/s)²", "thrust of a rotor over its speed squared", example=5.84e-6)
     max_speed: Positive = key(..., "rad/s", "largest speed of a rotor", example=1100.0)
     max_thrust: Positive | None = key(
-        None,
-        "N",
-        "in place of thrust_constant, max_speed or both",
-        unset="thrust_constant · max_speed²",
-        example=7.0,
+        None, "N", "in place of thrust_constant, max_speed or both", unset="thrust_constant · max_speed²", example=7.0
     )
     torque_per_thrust: Positive = key(..., "m", "reaction torque of a rotor over its thrust", example=0.06)
     lag_up: NonNegative = key(..., "s", "time constant of a rotor that speeds up", example=0.0125)
@@ -131,7 +133,7 @@ class Quadrotor(Table):
     rotor_radius: Length = key(
         0.128,
         "m",
-        "radius of a rotor, for the ground effect and for contact with floor and walls",
+        "radius of a rotor, for ground effect and contact with floor and walls",
         source="PX4's Gazebo model iris",
     )
     rotor_height: Metre = key(
@@ -154,10 +156,7 @@ class Quadrotor(Table):
         source="chosen: arm and rotor",
     )
     feet_spread: Length = key(
-        0.12,
-        "m",
-        "distance of each of four feet from the quadrotor's centre, along its x and along its y",
-        source="chosen",
+        0.12, "m", "distance of each foot from the quadrotor's centre, along its x and y", source="chosen"
     )
     feet_depth: Length = key(
         0.18, "m", "distance of the soles below the quadrotor's centre", source="chosen: the beam stays off the floor"

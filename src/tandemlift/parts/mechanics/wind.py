@@ -1,8 +1,7 @@
 """The velocity of the air: steady wind, discrete gusts and turbulence; its drag on payload and quadrotors.
 
-Gusts have the 1 − cosine shape of MIL-F-8785C, section 3.7. Velocities are in world axes [m/s]. They are unknown to
-the pilot. The drag is quadratic in the velocity through the air, with `wind.model = "air"`; the linear drag of the
-whole vehicle, `vehicle.drag`, is in `rigid_body`.
+Gusts have the 1 − cosine shape of MIL-F-8785C, section 3.7. Velocities are in world axes [m/s]. The drag is quadratic
+in the velocity through the air; the linear drag of the whole vehicle, `vehicle.drag`, is in `rigid_body`.
 """
 
 from __future__ import annotations
@@ -50,7 +49,7 @@ class GustTable(Table):
     hold: NonNegative | None = key(None, "s", "time for which the gust holds its peak", unset="it stays", example=2.0)
 
 
-class WindTable(Table):
+class WindTable(Table, acts='wind.model = "air"', keys_act={"height airspeed": "wind.turbulence > 0"}):
     """`[wind]`: moving air with quadratic drag on payload and quadrotors, unknown to the pilot.
 
     Gusts and Dryden turbulence are those of MIL-F-8785C.
@@ -59,7 +58,7 @@ class WindTable(Table):
     model: Literal["none", "air"] = key(
         "none", None, "model of the wind", choices={"none": "no moving air", "air": "moving air with drag"}
     )
-    velocity: Annotated[Speeds, PerAxis(3)] = key((0.0, 0.0, 0.0), "m/s", "mean velocity, world axes")
+    velocity: Annotated[Speeds, PerAxis(3, single=False)] = key((0.0, 0.0, 0.0), "m/s", "mean velocity, world axes")
     turbulence: Turbulence = key(
         0.0, "m/s", "mean wind at 20 ft that scales the turbulence: 7.7 is light, 15.4 moderate, 0 none"
     )

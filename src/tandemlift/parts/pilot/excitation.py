@@ -55,7 +55,7 @@ class LineTable(Table):
     phase: float = key(0.0, "rad", "phase at the beginning", source="a sine that begins at 0")
 
 
-class ExcitationTable(Table):
+class ExcitationTable(Table, acts='excitation.model = "multisine"'):
     """`[excitation]`: sines on top of what the pilot commands, from which the vehicle can be identified.
 
     `tandemlift excite` chooses them. The floor and the rotors' start are no part of it: it acts in flight only.

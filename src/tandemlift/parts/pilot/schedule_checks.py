@@ -174,9 +174,7 @@ def phase_warnings(p: PhasesTable) -> Iterator[CheckResult]:
 
 
 def wind_warnings(w: WindTable) -> Iterator[CheckResult]:
-    """Check for gusts without a wind, and for turbulence at a height outside the standard."""
-    if w.gusts and w.model == "none":
-        yield warned('wind.gusts do not blow while wind.model is "none"')
+    """Check for turbulence at a height outside the standard."""
     lowest, highest = LOWEST * FOOT, HIGHEST * FOOT
     held = min(max(w.height, lowest), highest)
     if w.model == "air" and w.turbulence and abs(held - w.height) > 1e-6 * held:

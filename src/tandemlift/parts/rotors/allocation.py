@@ -43,7 +43,9 @@ class Weights:
         return core_schema.no_info_before_validator_function(self.rows, handler(source))
 
 
-class AllocationTable(Table):
+class AllocationTable(
+    Table, keys_act={"priorities": 'allocation.method = "constrained"', "lead_bandwidth": "allocation.lead > 0"}
+):
     """`[allocation]`: how the wrench is distributed over the quadrotors."""
 
     method: Literal["pseudo-inverse", "constrained"] = key(

@@ -29,7 +29,7 @@ from tandemlift.parts.rotors.detection import (
 Positive4 = Annotated[tuple[Scale, Scale, Scale, Scale], PerAxis(4)]
 
 
-class DetectionTable(Table):
+class DetectionTable(Table, acts='detection.model = "residual"'):
     """`[detection]`: rotor-failure detection, from the momentum that the modelled rotors do not explain.
 
     With `allocation.method = "constrained"`, which it needs: a rotor that is declared failed gets no thrust, and a

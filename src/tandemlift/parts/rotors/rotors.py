@@ -21,7 +21,7 @@ from tandemlift.parts.rotors.rotor_faults import FaultTable, RotorFaults, effici
 from tandemlift.parts.rotors.rotor_lag import Lag, lag, lag_step
 
 
-class ActuatorsTable(Table):
+class ActuatorsTable(Table, acts='actuators.model = "rotors"'):
     """`[actuators]`: response of the rotors to a command."""
 
     model: Literal["ideal", "rotors"] = key(

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import AfterValidator, Field
 
 from tandemlift.core.algebra import sqrt
-from tandemlift.core.keys import Axes3, Delay, NonNegative, Positive, Size, Table, key, must
+from tandemlift.core.keys import Delay, Exactly3, NonNegative, Positive, Size, Table, key, must
 from tandemlift.parts.sensors.vehicle_sensors import ADDITIONAL, DEVICES, SENSORS, sensors_on
 
 FINEST = 1e-9  # resolution of a sensor, in its unit
@@ -40,7 +40,7 @@ WITHIN = "below the time between samples"
 LATE = "delay of a sample beyond the one step after which any sample is known, rounded to whole steps"
 
 
-class JointSensors(Table):
+class JointSensors(Table, acts='sensors.joints.model = "simulated"'):
     """`[sensors.joints]`: the force-torque sensor at each joint, between quadrotor and payload."""
 
     model: Literal["none", "simulated"] = key(
@@ -134,7 +134,14 @@ class AdditionalSensorTable(Table):
     delay: Delay = key(0.0, "s", LATE, rule=STEPS)
 
 
-class SensorsTable(Table):
+class SensorsTable(
+    Table,
+    acts='sensors.model = "simulated"',
+    keys_act={
+        "noise_interval": "sensors.joints.force_noise > 0 or sensors.joints.torque_noise > 0 or "
+        "sensors.accelerometer.noise > 0 or sensors.gyroscope.noise > 0"
+    },
+):
     """`[sensors]`: simulated sensors; errors are independent along each axis.
 
     There are a force-torque sensor at every joint, an accelerometer and a gyroscope, all on one clock, the inertial
@@ -226,7 +233,7 @@ class SensorFaultTable(Table):
     until: NonNegative | None = key(
         None, "s", "end of the fault", rule="after its start", unset="it lasts for good", example=20.0
     )
-    size: Axes3 = key(
+    size: Exactly3 = key(
         (0.0, 0.0, 0.0),
         THE_SENSORS,
         "offset, or the reading in its place; a force for joints, a rotation about body axes [rad] for the attitude",

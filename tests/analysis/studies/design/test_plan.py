@@ -119,7 +119,7 @@ def test_quoted_dotted_keys_and_nested_tables_mean_the_same():
             study={"draws": 3},
             set={"mission": {"duration": 2.0}} if is_nested else {"mission.duration": 2.0},
             grid={"plant": {"mass_scale": [0.9, 1.0]}} if is_nested else {"plant.mass_scale": [0.9, 1.0]},
-            draw={"wind": {"density": UNIFORM}} if is_nested else {"wind.density": UNIFORM},
+            draw={"crash": {"tilt": UNIFORM}} if is_nested else {"crash.tilt": UNIFORM},
             cases=[{"name": "a", "set": {"mission": {"step": 0.002}} if is_nested else {"mission.step": 0.002}}],
         )
         for is_nested in (True, False)

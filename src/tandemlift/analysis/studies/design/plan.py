@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import warnings
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -22,9 +23,9 @@ from tandemlift.analysis.studies.design.keys import changes_in, columns_of, with
 from tandemlift.analysis.studies.design.sampling import point_count, points
 from tandemlift.analysis.studies.design.settings import MAX_ROWS, CaseTable, StudySettings, default_rows_per_chunk
 from tandemlift.analysis.studies.design.variants import Variant
-from tandemlift.core.errors import InputError
-from tandemlift.missions import Mission, tables_of
-from tandemlift.missions.changes import Tables
+from tandemlift.core.errors import FlightWarning, InputError
+from tandemlift.missions import IdleKey, Mission, idle_keys, sentences, tables_of
+from tandemlift.missions.changes import Tables, places_in
 from tandemlift.missions.loading import MissionTemplate
 
 SEED = "mission.seed"
@@ -70,7 +71,7 @@ class StudyPlan:
         self.cases: tuple[CaseTable, ...] = settings.cases or (CaseTable.model_construct(name="", set={}),)
         self.grid, self.drawn = grid_axes(tables), drawn_keys(tables)
         self.persons: Drawn = {}
-        said = self._said()
+        self._said_by = said = self._said()
         if settings.study.persons == "random":
             self._add_persons(said)
         study = settings.study
@@ -213,23 +214,39 @@ class StudyPlan:
         return tuple(columns)
 
     def check(self) -> None:
-        """Check that each variant has rows that can be flown, among the first ones.
+        """Check that each variant has rows that can be flown, among the first ones, and that what the study says acts.
+
+        A key that acts in some of the variants alone is warned of.
 
         Raises:
-            InputError: all that were tried are refused; the message is that of the first.
+            InputError: all that were tried are refused; the message is that of the first. Or a key that the study sets
+                acts in no variant.
         """
-        per_variant = self.count // len(self.variants)
+        per_variant, idle = self.count // len(self.variants), list[tuple[Mission, list[IdleKey]]]()
         for variant in range(len(self.variants)):
             first = variant * per_variant
             refusals = []
             for row in self.rows(first, first + min(TRIED, per_variant)):
                 try:
-                    self.mission(row)
+                    mission = self.mission(row)
+                    idle.append((mission, self._idle(mission, row)))
                     break
                 except InputError as error:
                     refusals.append(str(error))
             else:
                 raise InputError(self._refused(variant, per_variant == 1, refusals))
+        everywhere = set[str].intersection(*({one.key for one in rests} for _, rests in idle))
+        for mission, rests in idle:
+            for text in sentences(mission, [one for one in rests if not everywhere or one.key in everywhere]):
+                if everywhere:
+                    raise InputError(text)
+                warnings.warn(f"{mission.mission.name}: {text}", FlightWarning, stacklevel=3)
+
+    def _idle(self, mission: Mission, row: StudyRow) -> list[IdleKey]:
+        """The keys that the study sets and that cannot act in a row's mission; the condition does not vary."""
+        varied = {key for key, table in self._said_by.items() if table != "set"}
+        given = {key: value for key, value in row.changes.items() if key in self._said_by}
+        return [one for one in idle_keys(mission, places_in(given)) if one.decided_by not in varied]
 
     def _refused(self, variant: int, alone: bool, refusals: Sequence[str]) -> str:
         """The message that rows of a variant are refused, with the reason of the first."""

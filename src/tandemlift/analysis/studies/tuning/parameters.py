@@ -19,7 +19,7 @@ from pydantic import BaseModel
 from tandemlift.core.errors import InputError, shown, suggestion
 from tandemlift.core.files import toml_tables
 from tandemlift.core.keys import is_number
-from tandemlift.missions import Mission
+from tandemlift.missions import Mission, idle_keys, sentences
 from tandemlift.missions.key_descriptions import bounds, innermost, plain
 
 DIGITS = 3  # of a flown number
@@ -127,13 +127,19 @@ def parameters_of(mission: Mission, ranges: Mapping[str, Range], factor: float) 
         factor: by which a positive number without a range may differ from its present value.
 
     Raises:
-        InputError: a key is unknown, is no number, or its range is empty.
+        InputError: a key is unknown, is no number, or cannot act in the mission, or its range is empty. Of a table or a
+            pattern, keys that cannot act are left out.
     """
     leaves = {leaf.key: leaf for leaf in _leaves(mission, "")}
     found: dict[str, Tunable] = {}
     for asked, limits in (ranges or {"controller": None}).items():
         _check_range(asked, limits)
-        for leaf, place in _matching(asked, leaves):
+        matching = _matching(asked, leaves)
+        idle = list(idle_keys(mission, [leaf.key for leaf, _ in matching]))
+        resting = {one.key for one in idle}
+        if matching and len(resting) == len(matching):
+            raise InputError(f"--parameter {asked}: {sentences(mission, idle)[0]}")
+        for leaf, place in [one for one in matching if one[0].key not in resting]:
             found |= {p.name: p for p in _parameters(leaf, limits, factor) if place in (None, p.place)}
     if not found:
         raise InputError(f"controller {mission.controller.name!r} has no gains; name the parameters by --parameter")

@@ -22,7 +22,14 @@ class MotionNoise(NamedTuple):
     interval: float
 
 
-class WrenchTable(Table):
+class WrenchTable(
+    Table,
+    keys_act={
+        "force_bandwidth moment_bandwidth": 'estimator.wrench = "momentum" or "hybrid" or "disturbance-observer"',
+        "force_change moment_change": 'estimator.wrench = "kalman" or "extended-kalman" or "unscented" or "fused"',
+        "joint_force_tolerance joint_moment_tolerance": 'estimator.wrench = "fused"',
+    },
+):
     """`[estimator.wrench_observer]`: tuning of `estimator.wrench`; axes are x, y, z, and roll, pitch, yaw.
 
     The noise of the sensors is that of `[sensors]`, and the delay of the rotors `observer.rotor_delay`,
