@@ -150,6 +150,7 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     ),
 }
 POSITIVE = {"extended kalman", "surface rate", "watching for a lost rotor"}
+LONG_IN_XLA = {"extended kalman", "fused", "watching for a lost rotor"}  # some ten seconds to compile each
 BATCH = 12
 EACH = pytest.mark.parametrize("name", LAWS)
 
@@ -186,6 +187,20 @@ def test_numpy_broadcasts_the_law(name):
 def test_jax_evaluates_the_law(name, jax):
     rows = evaluated(name, list(jax.numpy.asarray(inputs(name))))
     assert_agreement(np.array([np.broadcast_to(row, BATCH) for row in rows]), expected(name))
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.learning] * (name in LONG_IN_XLA)) for name in LAWS]
+)
+def test_jax_compiles_the_law_for_more_rows_than_it_takes_in_one_piece(name, jax):
+    many = 16_500  # 0.10.2 repeated rows of sums from row 16,384 on
+    numbers = np.tile(inputs(name), -(-many // BATCH))[:, :many] * np.linspace(0.9, 1.1, many)
+    found = np.array(
+        jax.jit(jax.vmap(lambda row: jax.numpy.stack(jax.numpy.broadcast_arrays(*evaluated(name, list(row))))))(
+            numbers.T
+        )
+    )
+    assert_agreement(found.T, np.array([np.broadcast_to(row, many) for row in evaluated(name, numbers)]))
 
 
 @EACH

@@ -57,13 +57,18 @@ def extra(name: str, user: str) -> Iterator[None]:
         user: the feature that needs them.
 
     Raises:
-        InputError: a package is not installed; with the command that installs it.
+        InputError: a package is not installed, with the command that installs it; or it cannot be imported, with what
+            it says itself.
     """
     try:
         yield
-    except ModuleNotFoundError as error:
-        package = (error.name or "").partition(".")[0]
-        raise InputError(f"{user} needs {package}: {install_command(name)}") from None
+    except ImportError as error:
+        if isinstance(error, ModuleNotFoundError) and error.name and "." not in error.name:
+            raise InputError(f"{user} needs {error.name}: {install_command(name)}") from None
+        said = " ".join(str(error).split())
+        raise InputError(
+            f"{user}: a package of the extra {name!r} is installed but cannot be imported: {said}"
+        ) from error
 
 
 def install_command(name: str) -> str:

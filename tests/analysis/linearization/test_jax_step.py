@@ -105,6 +105,32 @@ def test_tangents_batches_and_steps_of_a_call_agree(jax):
     assert weights @ moved[:13] == pytest.approx(float(gradients[0][0] @ direction), rel=1e-10)
 
 
+MANY = 16_500  # rows; jaxlib 0.10.2 gave row i the sum of row i - 64 from row 16,384 on (jax-ml/jax #39103)
+
+
+@pytest.mark.parametrize("kind", [np.float64, np.float32])
+def test_sums_over_products_with_a_matrix_are_right_in_every_row(kind, jax):
+    matrix, rows = np.eye(3, dtype=kind), np.outer(np.arange(2 * MANY), [1, 0, 0]).astype(kind)
+    found = jax.jit(jax.vmap(lambda row: jax.numpy.sum((matrix @ row) ** 2)))(rows)
+    assert np.allclose(found, np.arange(2.0 * MANY) ** 2, rtol=1e-6)
+
+
+def test_row_by_row_many_flights_and_their_gradients_are_those_of_few(jax):
+    step, weights = step_of("hover", begin=6.0), np.random.default_rng(3).standard_normal((6, 13))
+    pushes = np.random.default_rng(4).standard_normal((MANY, 3))
+
+    def loss(push):
+        return jax.numpy.sum((weights @ (step(step.state, None, push)[:13] - step.state[:13])) ** 2)
+
+    together = jax.jit(jax.vmap(jax.value_and_grad(loss)))
+    some = slice(MANY - 300, MANY)
+    for many, few in zip(together(pushes), together(pushes[some]), strict=True):
+        assert np.allclose(many[some], few, rtol=1e-9, atol=1e-12 * np.abs(few).max())
+    states = jax.jit(jax.vmap(lambda push: step(step.state, None, push)))(pushes)
+    alone = [np.array(step(step.state, None, pushes[i])) for i in (0, 16_383, 16_384, MANY - 1)]
+    assert np.array_equal(np.array(states)[[0, 16_383, 16_384, MANY - 1]], alone, equal_nan=True)
+
+
 def test_a_channel_of_the_sample_is_a_part_of_the_state_with_a_derivative(jax):
     step, simulation, h = step_of("hover", begin=0.2, channels=("rotor_thrusts",)), tl.Simulation("hover"), 1e-6
     push = np.array([0.5, 0.0, 0.0])
@@ -174,6 +200,13 @@ def test_of_many_steps_those_are_let_go_that_nobody_keeps(jax):
         steps.pop(0)
     gc.collect()
     assert first() is None
+
+
+@pytest.mark.parametrize("version", ["0.10.2", "0.11.0"])
+def test_a_jax_that_computes_wrong_is_refused_with_what_to_install(version, jax, monkeypatch):
+    monkeypatch.setattr(jax, "__version__", version)
+    with pytest.raises(InputError, match=rf"not with JAX {version}.*: pip install 'tandemlift\[jax\]' --upgrade"):
+        step_of("hover")(step_of("hover").state)
 
 
 def test_single_precision_is_refused(jax):

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+import re
+import subprocess
+from importlib.resources import files
 
 import numpy as np
 import pytest
@@ -13,6 +16,7 @@ from tandemlift.analysis.linearization.linear_model import modes_of
 from tandemlift.analysis.linearization.step_graph import CONSTANT, DISCRETE, UNSEEN
 from tandemlift.parts.controllers import control
 from tandemlift.simulation.plan import FlightPlan
+from tools import need
 
 
 @pytest.fixture(scope="module")
@@ -190,3 +194,28 @@ def test_a_lost_flight_and_a_simulation_that_is_over_are_refused():
         simulation.step()
     with pytest.raises(tl.InputError, match="is over"):
         tl.linearize(simulation)
+
+
+@pytest.mark.targets
+@pytest.mark.filterwarnings("ignore:stability_margins")  # it says how it computes
+def test_octave_runs_the_script_and_finds_the_margins_of_python_control(tmp_path):
+    need("octave-cli", "gnuplot")
+    control, scipy_io = pytest.importorskip("control"), pytest.importorskip("scipy.io")
+    step = 0.01
+    loop = control.c2d(control.tf([40.0], [1.0, 9.0, 18.0, 0.0]), step)  # a loop with an integrator and two lags
+    cut = control.ss(1.0 / (1.0 + loop))
+    names = {"inputs": [["thrust_offsets.0", "N"]], "outputs": [["rotor_thrusts.0", "N"]]}
+    matrices = {name: np.atleast_2d(getattr(cut, name)) for name in "ABCD"}
+    texts = {kind: np.array(rows, dtype=object) for kind, rows in names.items()}
+    scipy_io.savemat(tmp_path / "cut.mat", {**matrices, "step": step, **texts})
+    script = (files("tandemlift") / "data" / "linear_model.m").read_text("utf-8")
+    (tmp_path / "cut_plots.m").write_text(script.replace("@FILE@", "cut.mat").replace("@NAME@", "cut_plots"))
+    words = "graphics_toolkit('gnuplot'); set(0, 'defaultfigurevisible', 'off'); cut_plots"
+    command = ["octave-cli", "--no-init-file", "--eval", words]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    found = re.findall(r"gain margin (\S+) dB, phase margin (\S+) deg at (\S+) rad/s", done.stdout)
+    gain, phase, _, crossover = control.margin(loop)
+    assert np.array(found, dtype=float) == pytest.approx(
+        np.array([[20.0 * np.log10(gain), phase, crossover]]), abs=0.06
+    )

@@ -275,3 +275,30 @@ def test_without_mujoco_one_sentence_says_how_to_get_it(monkeypatch):
         monkeypatch.delitem(sys.modules, f"tandemlift.engines.models.mujoco_{name}")
     with pytest.raises(tl.InputError, match=r"^engine 'mujoco' needs mujoco: pip install 'tandemlift\["):
         importlib.import_module("tandemlift.engines.models.mujoco_bodies")
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "raise ImportError('its core bindings are missing:\\n  pip install --force-reinstall mujoco')",
+        "import mujoco._nothing_of_it",
+    ],
+)
+def test_a_mujoco_that_is_broken_is_told_with_its_own_line(line, monkeypatch, tmp_path):
+    (tmp_path / "mujoco").mkdir()
+    (tmp_path / "mujoco" / "__init__.py").write_text(line)
+    monkeypatch.syspath_prepend(tmp_path)
+    for name in [n for n in sys.modules if n.split(".")[0] == "mujoco"]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.delitem(sys.modules, "tandemlift.engines.models.mujoco_import")
+    with pytest.raises(tl.InputError, match="installed but cannot be imported: ") as caught:
+        importlib.import_module("tandemlift.engines.models.mujoco_import")
+    assert ("--force-reinstall" in str(caught.value)) == ("bindings" in line)
+    assert "\n" not in str(caught.value)
+
+
+def test_mujoco_3_is_to_be_uninstalled_first(monkeypatch):
+    monkeypatch.setattr(mujoco, "__version__", "3.17.0")
+    monkeypatch.delitem(sys.modules, "tandemlift.engines.models.mujoco_import")
+    with pytest.raises(tl.InputError, match=r"3\.17\.0 is installed: pip uninstall -y mujoco, then pip install 'tand"):
+        importlib.import_module("tandemlift.engines.models.mujoco_import")

@@ -13,11 +13,12 @@ from tandemlift.compiler.machine_code import machine
 from tandemlift.compiler.machine_code.flight_step import FlightStep
 from tandemlift.compiler.machine_code.iterated import ARGUMENTS, INPUTS, WORDS, Kind
 from tandemlift.compiler.tracer import Function, Graph, Module
-from tandemlift.core.errors import InputError, extra
+from tandemlift.core.errors import InputError, extra, install_command
 
 LOADED: dict[str, machine.Loaded] = {}  # handlers that XLA knows, by their names
 EXTENSION, ARGUMENTS_AT, RESULTS_AT = 1, 9, 14  # words to these in XLA's frame (`xla/ffi/api/c_api.h`)
 DATA, RANK, DIMENSIONS = 3, 4, 5  # words to these in a buffer
+FAULTY = ("0.10.2", "0.11.0")  # wrong sums on the processor (jax-ml/jax #39103); crashes of the same code (#39257)
 
 
 class JaxStep(FlightStep):
@@ -98,10 +99,15 @@ def _jax() -> Any:
     """JAX.
 
     Raises:
-        InputError: it is not installed.
+        InputError: it is not installed, or of a version that computes wrong.
     """
     with extra("jax", "jax_step"):
         import jax
+    if jax.__version__ in FAULTY:
+        raise InputError(
+            f"jax_step works, but not with JAX {jax.__version__}, which computes wrong sums on the processor or "
+            f"crashes: {install_command('jax')} --upgrade"
+        )
     return jax
 
 

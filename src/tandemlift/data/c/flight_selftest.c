@@ -73,5 +73,10 @@ int main(void)
 //end double
     printf("%s: %ld steps, %d of %d stored samples seen, %d numbers differ\n", wrong || row < ROWS ? "FAILED" : "ok",
         (long)k, row, ROWS, wrong);
+//if double
+    if (wrong) {
+        printf("%s\n", TANDEMLIFT_WRONG_BITS);
+    }
+//end double
     return wrong || row < ROWS ? 1 : 0;
 }

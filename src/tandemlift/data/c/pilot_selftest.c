@@ -45,5 +45,10 @@ int main(void)
         }
     }
     printf("%s: %d samples, %d thrusts differ\n", wrong ? "FAILED" : "ok", VECTORS, wrong);
+//if double
+    if (wrong) {
+        printf("%s\n", TANDEMLIFT_WRONG_BITS);
+    }
+//end double
     return wrong ? 1 : 0;
 }

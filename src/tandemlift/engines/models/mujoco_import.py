@@ -12,7 +12,8 @@ with extra("mujoco", "engine 'mujoco'"):
 if int(mujoco.__version__.split(".")[0]) < 4:
     raise InputError(
         f"engine 'mujoco' needs mujoco 4.0 or newer, whose Runge-Kutta step is of order four for attitudes too; "
-        f"{mujoco.__version__} is installed: {install_command('mujoco')} --upgrade"
+        f"{mujoco.__version__} is installed: pip uninstall -y mujoco, then {install_command('mujoco')} (4.0 is three "
+        "packages, of which pip removes parts if it replaces 3 by them)"
     )
 
 __all__ = ["mujoco"]
