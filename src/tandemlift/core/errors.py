@@ -7,7 +7,7 @@ import json
 import math
 import re
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
@@ -77,9 +77,7 @@ def install_command(name: str) -> str:
 
 
 OK, CLOSE, FAILS, REFUSED = "ok", "close", "fails", "refused"
-WORST_FIRST = (REFUSED, FAILS, CLOSE, OK)
 SETTINGS = "settings"  # name of the checks whose result is a sentence about keys that do not fit
-HEAD = ("check", "of", "value", "limit", "unit", "margin", "verdict")  # of the table of checks
 NEAR = 0.1  # of a limit: less than this share of it left is close
 
 
@@ -160,26 +158,6 @@ def accepted(results: Iterable[CheckResult]) -> list[CheckResult]:
             raise InputError(result.text)
         taken.append(result)
     return taken
-
-
-def check_lines(results: Sequence[CheckResult]) -> Iterator[tuple[str, str]]:
-    """Verdict and text of each line of a report: a table with a row for each result, worst first; texts; counts."""
-    results = sorted(results, key=lambda result: WORST_FIRST.index(result.verdict))
-    rows = [HEAD, *map(_check_row, results)]
-    widths = [max(len(row[i]) for row in rows) for i in range(len(HEAD))]
-    for row, verdict in zip(rows, ["", *(result.verdict for result in results)], strict=True):
-        cells = enumerate(zip(row, widths, strict=True))
-        yield verdict, "  ".join(cell.rjust(w) if i in (2, 3, 5) else cell.ljust(w) for i, (cell, w) in cells).rstrip()
-    yield from ((result.verdict, f"{result.verdict}: {result.text}") for result in results if result.text)
-    counts = {verdict: sum(result.verdict == verdict for result in results) for verdict in (OK, CLOSE, FAILS)}
-    yield "", ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
-
-
-def _check_row(result: CheckResult) -> tuple[str, ...]:
-    is_advice = result.verdict == CLOSE and result.margin is not None and result.margin < 0.0
-    margin = "" if result.margin is None else "advice" if is_advice else f"{100.0 * result.margin:.0f} %"
-    value, limit = ("" if x is None else "none" if math.isinf(x) else f"{x:.3g}" for x in (result.value, result.limit))
-    return result.check, result.subject, value, limit, "" if result.unit == "1" else result.unit, margin, result.verdict
 
 
 def dotted(place: Iterable[str | int]) -> str:

@@ -10,8 +10,10 @@ import secrets
 import shutil
 import tomllib
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from functools import cache
+from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +22,13 @@ from tandemlift.core.errors import InputError
 __version__ = "1.0.0"
 DATA = Path(__file__).resolve().parents[1] / "data"  # missions, pages, templates: everything but Python
 FLIGHT_FILE = "flight.npz"  # in the folder of a run
+
+
+@cache
+def versions(engine: str) -> Mapping[str, str]:
+    """Versions of the packages that a flight in an engine uses."""
+    packages = ("llvmlite", "numpy", *(["mujoco"] if engine == "mujoco" else []))
+    return {"tandemlift": __version__, **{name: metadata.version(name) for name in packages}}
 
 
 @contextmanager
@@ -48,12 +57,6 @@ def aside(path: Path, beside: Path) -> Iterator[Path]:
         raise OSError(error.errno, error.strerror, str(name)) from error
     finally:
         shutil.rmtree(partial) if partial.is_dir() else partial.unlink(missing_ok=True)
-
-
-def is_flight_file(path: Path) -> bool:
-    """Whether a path is that of a saved flight: by its ending .npz, or, since `save` takes any name, by what it is."""
-    others = (".bag", ".mcap", ".zip", ".fmu")
-    return path.suffix == ".npz" or (path.suffix not in others and path.is_file() and zipfile.is_zipfile(path))
 
 
 def write_file(path: Path, content: str | bytes) -> None:

@@ -8,15 +8,13 @@ import os
 import zipfile
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cache
-from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 import numpy as np
 
 from tandemlift.core.errors import InputError, suggestion, unknown
-from tandemlift.core.files import FLIGHT_FILE, __version__, atomic_write, unpacked_size
+from tandemlift.core.files import FLIGHT_FILE, atomic_write, unpacked_size
 from tandemlift.core.findings import Finding, finding_from
 from tandemlift.core.phases import FAILURES, INTERRUPTED
 from tandemlift.core.types import Array
@@ -42,11 +40,10 @@ CAUSE_TEXT = "{outcome} at {time:.6g} s: {cause}"
 INTERRUPTION_TEXT = "{outcome} at {time:.6g} s: {limit}"
 
 
-@cache
-def versions(engine: str) -> Mapping[str, str]:
-    """Versions of the packages that a flight in an engine uses."""
-    packages = ("llvmlite", "numpy", *(["mujoco"] if engine == "mujoco" else []))
-    return {"tandemlift": __version__, **{name: metadata.version(name) for name in packages}}
+def is_flight_file(path: Path) -> bool:
+    """Whether a path is that of a saved flight: by its ending .npz, or, since `save` takes any name, by what it is."""
+    others = (".bag", ".mcap", ".zip", ".fmu")
+    return path.suffix == ".npz" or (path.suffix not in others and path.is_file() and zipfile.is_zipfile(path))
 
 
 class Ending(NamedTuple):

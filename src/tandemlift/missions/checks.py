@@ -29,6 +29,7 @@ from tandemlift.parts.interaction.policy import policy_checks
 from tandemlift.parts.interaction.requests import request_checks
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
+from tandemlift.parts.pilot.check_results import check_lines as check_lines
 from tandemlift.parts.pilot.excitation import time_checks as excitation_time_checks
 from tandemlift.parts.pilot.push_checks import on_vehicle_checks
 from tandemlift.parts.pilot.schedule_checks import phase_checks, phase_warnings, wind_warnings

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.core.errors import CLOSE, FAILS, SETTINGS, CheckResult, noted
+from tandemlift.core.errors import CLOSE, CheckResult, noted
 from tandemlift.missions.mission import Mission
 from tandemlift.missions.outcomes import promise_of
 from tandemlift.parts.controllers.interface import tilt_limit_of
@@ -240,19 +240,3 @@ def _computable(part: str, results: Iterator[CheckResult]) -> Iterator[CheckResu
         yield from results
     except (ArithmeticError, np.linalg.LinAlgError):
         yield noted(part, f"the {part} end here: the mission's numbers are too extreme for them", verdict=CLOSE)
-
-
-def worst_failures(results: Iterable[CheckResult]) -> Iterator[CheckResult]:
-    """The worst failure of each check, and every failure of settings."""
-    failed: dict[str, list[CheckResult]] = {}
-    for result in results:
-        if result.verdict == FAILS:
-            failed.setdefault(result.text if result.check == SETTINGS else result.check, []).append(result)
-    yield from (max(many, key=_excess) for many in failed.values())
-
-
-def _excess(result: CheckResult) -> float:
-    """The excess of a result over its limit, as a fraction of the limit."""
-    if result.value is None or result.limit is None or result.limit <= 0.0:
-        return float("inf")
-    return result.value / result.limit

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import inspect
 import types
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Annotated, Any, Literal, NamedTuple, Union, get_args, get_origin
 
 from pydantic import BaseModel
@@ -223,3 +223,16 @@ def default_words(key: Key) -> str:
     if key.default is None:
         return key.facts.unset or "left out"
     return written(key.default)
+
+
+def as_key(option: str, words: Sequence[str]) -> str:
+    """What to write in place of an unknown option in a command's words that is a table or a key; "" for others."""
+    name = option.lstrip("-").replace("-", "_")
+    own = [key for section in sections() for key in section.keys if key.facts.unit]
+    found = next((k for k in own if name in (k.name.rpartition(".")[0], k.name, k.name.rpartition(".")[2])), None)
+    if found is None:
+        return ""
+    value = [*" ".join(words).partition(option)[2].lstrip(" =").split(), ""][0]
+    number = value if value.lstrip("+-")[:1].isdigit() else "…"
+    vector = "3 numbers" in found.allowed and not found.allowed.startswith("one number")
+    return f"it is a key of the mission: --set {found.name}={f'[{number},0,0]' if vector else number}"

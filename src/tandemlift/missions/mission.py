@@ -7,7 +7,7 @@ takes one number for all axes or one number each. The built-in missions in `data
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Annotated, Any
 
@@ -16,7 +16,7 @@ from pydantic import AfterValidator, Field, SerializeAsAny, ValidationError, mod
 from tandemlift.core.errors import InputError
 from tandemlift.core.keys import NonNegative, Positive, Table, divisor, key, must
 from tandemlift.missions.outcomes import CrashTable, FindingsTable, OutcomeTable, PromiseTable
-from tandemlift.parts.contact.corridor import CorridorTable, WallTable
+from tandemlift.parts.contact.corridor import CorridorTable, WallTable, nearest_wall
 from tandemlift.parts.contact.standing import GroundTable
 from tandemlift.parts.controllers import ControllerTable
 from tandemlift.parts.estimation.contact_table import ContactTable
@@ -170,6 +170,11 @@ class Mission(Table):
     def all_walls(self) -> tuple[WallTable, ...]:
         """All walls: those of `walls`, then the corridor's."""
         return (*self.walls, *self.corridor.walls)
+
+    def wall_at(self, place: Sequence[float]) -> str:
+        """The name of the wall nearest to a place [m]."""
+        number = nearest_wall(self.all_walls, place)
+        return f"walls.{number}" if number < len(self.walls) else "a wall of the corridor"
 
     @property
     def changes_in_flight(self) -> bool:

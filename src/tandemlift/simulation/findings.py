@@ -20,7 +20,7 @@ from tandemlift.simulation.loop.oscillation import Swings
 from tandemlift.simulation.loop.step import FlightState
 from tandemlift.simulation.outcome import landing_time
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.touches import touches_of, wall_at
+from tandemlift.simulation.touches import touches_of
 
 SIGNALS = {  # of `simulation.loop.oscillation.Swings`: name, unit
     "roll": ("roll rate", "rad/s"),
@@ -170,7 +170,7 @@ def _unanswered(m: Excess, p: FlightPlan, flight_state: FlightState) -> Iterator
     size = max(math.hypot(*q.position) + q.guard_radius for q in p.mission.vehicle.quadrotors)
     walls = [t for t in touches_of(flight_state) if t.surface == "wall" and t.time < m.start + m.stretch]
     if at := next((t for t in walls if math.dist(t.place, m.place) < size), None):
-        text += f": {wall_at(p.mission, at.place)} is in the way of the {at.part}"
+        text += f": {p.mission.wall_at(at.place)} is in the way of the {at.part}"
     yield _excess("no-response-to-push", text, m, p.dt, "push", m.worst, "N", worst=False)
 
 

@@ -12,13 +12,14 @@ from numpy.typing import NDArray
 
 from tandemlift.core.errors import suggestion
 from tandemlift.core.faults import ALARM_TEXTS, CHECKS
+from tandemlift.core.files import versions
 from tandemlift.core.phases import CONTACT as PHASE_CONTACT
 from tandemlift.core.phases import FAILURES, IDLE, PHASE_NAMES
 from tandemlift.core.types import Array, flat, leaves, unflat
 from tandemlift.core.vector import Absent, Vec3, dot
 from tandemlift.flight.channels import DERIVED
 from tandemlift.flight.reading_stamps import reading_stamps
-from tandemlift.flight.record import Ending, Flight, versions
+from tandemlift.flight.record import Ending, Flight
 from tandemlift.missions import tables_of
 from tandemlift.missions.recording import portable
 from tandemlift.simulation.findings import EventCode, findings_of, supervision_events

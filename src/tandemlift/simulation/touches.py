@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from tandemlift.core.vector import Absent, Vec3
 from tandemlift.engines.touches import SurfaceTouches, Touches, TouchRecord
 from tandemlift.flight.record import Flight
-from tandemlift.missions import Mission
 from tandemlift.parts.guidance.contact_hold import BEAM, DIRECTIONS, HALF_PLACES, PLACES, code_of
 from tandemlift.simulation.loop.step import FlightState
 
@@ -64,14 +62,6 @@ def touches_of(flight_state: FlightState) -> list[TouchReport]:
         return []
     found = [*_of_surface(touches.floor, "floor"), *_of_surface(touches.walls, "wall")]
     return sorted(found, key=lambda report: report.time)
-
-
-def wall_at(mission: Mission, place: Sequence[float]) -> str:
-    """The name of the wall nearest to a place [m]: those of `[[walls]]` come before those of the corridor."""
-    at, ends = complex(*place[:2]), [(complex(*wall.start), complex(*wall.end)) for wall in mission.all_walls]
-    beside = [abs(at - a - (b - a) * min(max(((at - a) / (b - a)).real, 0.0), 1.0)) for a, b in ends]
-    number = beside.index(min(beside))
-    return f"walls.{number}" if number < len(mission.walls) else "a wall of the corridor"
 
 
 def _of_surface(records: SurfaceTouches | Absent, surface: str) -> list[TouchReport]:

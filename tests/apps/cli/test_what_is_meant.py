@@ -5,11 +5,11 @@ import sys
 import pytest
 
 import tandemlift as tl
-from tandemlift.apps.cli.keys import as_key
 from tandemlift.apps.cli.main import main
-from tandemlift.core.errors import CLOSE, FAILS, OK, check_lines, judged
+from tandemlift.core.errors import CLOSE, FAILS, OK, judged
 from tandemlift.missions import load_mission
-from tandemlift.missions.key_descriptions import sections
+from tandemlift.missions.checks import check_lines
+from tandemlift.missions.key_descriptions import as_key, sections
 from tandemlift.missions.keys.renamed import RENAMED, present_name
 from tandemlift.missions.reference import explained, plain_name
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,13 @@ from tandemlift.core.files import write_file
 from tandemlift.missions import format_toml
 
 TIERS = ("linear", "structured", "person", "nonlinear", "statistics")
+SECONDS = {  # of a tier of `iris` on two cores, without flights that look for its limits and with them; of a flight
+    "linear": (20.0, 60.0),
+    "structured": (20.0, 20.0),
+    "person": (10.0, 60.0),
+    "nonlinear": (40.0, 60.0),
+    "statistics": (0.03, 0.03),
+}
 
 
 @dataclass(frozen=True)
@@ -142,3 +149,9 @@ def _finite(value: Any) -> Any:
     if isinstance(value, float) and not math.isfinite(value):
         return None if math.isnan(value) else "unlimited"
     return value
+
+
+def time_left(tiers: Sequence[str], done: int, elapsed: float, *, fly: bool, flights: int) -> float:
+    """The time that is left [s] after `done` tiers in `elapsed` [s]: by `SECONDS` at first, then by their pace."""
+    work = [SECONDS[name][fly] * (flights if name == "statistics" else 1) for name in tiers]
+    return sum(work[done:]) * (elapsed / sum(work[:done]) if done else 1.0)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import click
 
 from tandemlift.compiler.machine_code.notices import compile_notices
-from tandemlift.core.errors import CLOSE, FAILS, REFUSED, CheckResult, check_lines
+from tandemlift.core.errors import CLOSE, FAILS, REFUSED, CheckResult
 from tandemlift.core.progress import shown_progress
 
 if TYPE_CHECKING:
@@ -65,6 +65,8 @@ def print_checks(results: Sequence[CheckResult]) -> None:
     if len(tight) > CLOSEST:
         echo("closest to their limits: " + ", ".join(f"{name} ({100 * left:.0f} %)" for left, name in tight[:CLOSEST]))
         echo("")
+    from tandemlift.missions.checks import check_lines
+
     for verdict, line in check_lines(results):
         echo(click.style(line, fg=COLOURS.get(verdict)) if verdict else line)
 

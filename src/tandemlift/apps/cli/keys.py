@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import shlex
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import click
 
@@ -16,7 +16,7 @@ from tandemlift.apps.export.results import file_path
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.files import atomic_write
 
-LIGHTEST = 1e-4  # kg, of a new beam
+LEAST = 1e-4  # kg, of a new beam
 controller_option = click.option(
     "--controller", metavar="FILE", help="Your own controller (.py file): its keys are included."
 )
@@ -77,45 +77,18 @@ def new(
     if not quadrotors and sys.stdin.isatty():
         _print_table(models)
         quadrotors = (click.prompt("quadrotor", default="iris", type=click.Choice(list(models))),)
-    quadrotors = tuple(quadrotor.lower() for quadrotor in quadrotors) or ("iris",)
-    if len(quadrotors) > 2:
-        raise InputError(f"--quadrotor is given {len(quadrotors)} times: the beam has two, so at most twice")
-    for quadrotor in quadrotors:
-        if quadrotor not in models:
-            raise unknown("quadrotor", quadrotor, models)
-    beam = NewBeam.default(*quadrotors)
+    beam = NewBeam.default(*map(str.lower, quadrotors or ("iris",)))
     beam = beam._replace(length=_answer("length", length, beam.length, beam.shortest, 100.0, "m"))
     beam = beam._replace(center=_answer("center", center, 0.0, -0.5 * beam.length, 0.5 * beam.length, "m"))
-    if (mass or LIGHTEST) > beam.largest_mass:
-        raise InputError(f"--mass {mass or LIGHTEST:g}: {heaviest_words(beam)}")
-    beam = beam._replace(
-        mass=_answer("mass", mass, min(beam.mass, beam.largest_mass), LIGHTEST, beam.largest_mass, "kg")
-    )
+    if (mass or LEAST) > beam.largest_mass:
+        raise InputError(f"--mass {mass or LEAST:g}: {heaviest_words(beam)}")
+    beam = beam._replace(mass=_answer("mass", mass, min(beam.mass, beam.largest_mass), LEAST, beam.largest_mass, "kg"))
     echo(*hover_words(beam))
     with atomic_write(path) as partial_file:
         partial_file.write_text(new_mission(path.stem, beam), "utf-8")
         load_mission(partial_file.absolute())
     name = shlex.quote(file)
     echo(f"written: {file}; next: tandemlift check {name}, tandemlift run {name}")
-
-
-def as_key(option: str, words: Sequence[str]) -> str:
-    """What to write in place of an unknown option that is a table or a key of a mission; "" if it is neither.
-
-    `words`: of the command, one of which is the option or begins with it.
-    """
-    from tandemlift.missions.key_descriptions import sections
-
-    name = option.lstrip("-").replace("-", "_")
-    own = [key for section in sections() for key in section.keys if key.facts.unit]
-    found = next((k for k in own if name in (k.name.rpartition(".")[0], k.name, k.name.rpartition(".")[2])), None)
-    if found is None:
-        return ""
-    after = [" ".join(words[i:]).removeprefix(option).lstrip(" =") for i, w in enumerate(words) if w.startswith(option)]
-    value = [*(after[0].split() if after else ()), ""][0]
-    number = value if value.lstrip("+-")[:1].isdigit() else "…"
-    vector = "3 numbers" in found.allowed and not found.allowed.startswith("one number")
-    return f"it is a key of the mission: --set {found.name}={f'[{number},0,0]' if vector else number}"
 
 
 @click.command()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import sys
-from functools import partial
 from pathlib import Path
 from time import monotonic
 from typing import Any
@@ -139,19 +138,28 @@ def certify(
       limits/                         missions that fly beyond each limit
       statistics/                     the study of random flights, which goes on where it stopped
 
-    Tier and time left are told while it runs. Ctrl-C keeps the tiers so far.
-
-    Exit code 3: with --strict, a number is below its bar, or a tier has no numbers. 130: stopped; what is finished is
-    written.
+    Ctrl-C keeps the tiers so far: exit code 130. 3: with --strict, a number is below its bar, or a tier has none.
     """
-    from tandemlift.pictures.report.study.certificate_report import TIERS, certificate_lines, write_certificate
+    from tandemlift.analysis.studies.estimate import duration
+    from tandemlift.pictures.report.study.certificate_report import (
+        TIERS,
+        certificate_lines,
+        time_left,
+        write_certificate,
+    )
     from tandemlift.pictures.report.study.certificate_report import certify as certified
 
     loaded, chosen = load(mission, settings, controller), tiers.split(",") if tiers else TIERS
     with results_folder(out, Path("out") / f"{loaded.mission.name}-certificate", ()) as folder:
-        left = partial(_tell_tier, [name for name in TIERS if name in chosen], how["fly"], how["flights"], monotonic())
+        names, began = [name for name in TIERS if name in chosen], monotonic()
+
+        def tell(done: int, of: int) -> None:
+            if done < of:
+                left = time_left(names, done, monotonic() - began, fly=how["fly"], flights=how["flights"])
+                click.echo(f"tier {done + 1} of {of}, {names[done]}: about {duration(left)} left", err=True)
+
         with compile_notices.together():
-            found = certified(loaded, chosen, folder=folder / "statistics", progress=left, **how)
+            found = certified(loaded, chosen, folder=folder / "statistics", progress=tell, **how)
         echo(*certificate_lines(found))
         for path in write_certificate(found, folder):
             echo(f"  {path.suffix[1:]}: {path}")
@@ -160,26 +168,6 @@ def certify(
         sys.exit(INTERRUPTED)
     if strict and (found.missed or found.not_formed):
         sys.exit(FAILED)
-
-
-SECONDS = {  # of a tier of `iris` on two cores, without flights that look for its limits and with them; of a flight
-    "linear": (20.0, 60.0),
-    "structured": (20.0, 20.0),
-    "person": (10.0, 60.0),
-    "nonlinear": (40.0, 60.0),
-    "statistics": (0.03, 0.03),
-}
-
-
-def _tell_tier(tiers: list[str], fly: bool, flights: int, began: float, done: int, of: int) -> None:
-    """Print the tier that begins, and the time left: by `SECONDS` at first, then by the pace of the tiers done."""
-    if done < of:
-        from tandemlift.analysis.studies.estimate import duration
-
-        work = [SECONDS[name][fly] * (flights if name == "statistics" else 1) for name in tiers]
-        pace = (monotonic() - began) / sum(work[:done]) if done else 1.0
-        left = f"about {duration(sum(work[done:]) * pace)} left"
-        click.echo(f"tier {done + 1} of {of}, {tiers[done]}: {left}", err=True)
 
 
 @click.command()

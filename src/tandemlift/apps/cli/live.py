@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import sys
-from contextlib import closing
 from pathlib import Path
 
 import click
@@ -211,10 +210,9 @@ def grade(folder: Path, exercises: Path, seconds: float, out: str | None) -> Non
 
     Exit code 3: some did not run to their end.
     """
-    from tandemlift.apps.teaching.class_table import csv_of, lines_of
+    from tandemlift.apps.teaching.class_table import csv_of, fill, lines_of
     from tandemlift.apps.teaching.grading import Grade
     from tandemlift.apps.teaching.hand_ins import Notebook, notebooks_in
-    from tandemlift.apps.teaching.running import graded_each
 
     path = file_path("--out", out, ".csv") if out else None
     notebooks, skipped = notebooks_in(folder, exercises)
@@ -224,16 +222,8 @@ def grade(folder: Path, exercises: Path, seconds: float, out: str | None) -> Non
     if path:
         write_file(path, csv_of(notebooks, grades, skipped))
     try:
-        with (
-            progress_bar("Grading", "notebooks", shown=sys.stderr.isatty()) as progress,
-            closing(graded_each(notebooks, exercises, seconds)) as graded,
-        ):
-            for one, got in graded:
-                grades[one] = got
-                if path:
-                    write_file(path, csv_of(notebooks, grades, skipped))
-                if progress:
-                    progress(len(grades), len(notebooks))
+        with progress_bar("Grading", "notebooks", shown=sys.stderr.isatty()) as progress:
+            fill(grades, (notebooks, skipped), exercises, seconds, path, progress)
     finally:  # also of a class that is graded in part
         echo(*lines_of(notebooks, grades, skipped))
     sys.exit(FAILED if any(one.failure for one in grades.values()) else 0)
@@ -246,9 +236,8 @@ def docs() -> None:
     In a checkout it is the site that `make docs` or `make docs-quick` built last; before any, its pages as text.
     """
     out, text = DATA.parents[2] / "out", DATA.parents[2] / "docs/index.md"
-    built = [page for name in ("site", "site-quick") if (page := out / name / "index.html").is_file()]
-    built.sort(key=lambda page: page.stat().st_mtime, reverse=True)
-    for page in (DATA / "site/index.html", *built, text):
+    built = filter(Path.is_file, [out / name / "index.html" for name in ("site", "site-quick")])
+    for page in (DATA / "site/index.html", *sorted(built, key=lambda page: -page.stat().st_mtime), text):
         if page.is_file():
             echo(str(page))
             if page == text:

@@ -12,7 +12,7 @@ from tandemlift.apps.cli.console import compile_notices, exit_now, handle_interr
 from tandemlift.apps.cli.export import compile, export, render
 from tandemlift.apps.cli.flying import INTERRUPTED
 from tandemlift.apps.cli.identify import identify, shadow
-from tandemlift.apps.cli.keys import as_key, completion, controllers, engines, explain, missions, new, schema, template
+from tandemlift.apps.cli.keys import completion, controllers, engines, explain, missions, new, schema, template
 from tandemlift.apps.cli.linearize import certify, check, excite, linearize
 from tandemlift.apps.cli.live import docs, grade, live, page, replay, score
 from tandemlift.apps.cli.report import paper, plot, report
@@ -106,8 +106,11 @@ def main() -> None:
             sys.exit(cli.main(prog_name="tandemlift", standalone_mode=False))
     except click.ClickException as error:
         error.show()
-        if isinstance(error, click.NoSuchOption) and (hint := as_key(error.option_name, sys.argv)):
-            click.echo(hint, err=True)
+        if isinstance(error, click.NoSuchOption):
+            from tandemlift.missions.key_descriptions import as_key
+
+            if hint := as_key(error.option_name, sys.argv):
+                click.echo(hint, err=True)
         sys.exit(error.exit_code)
     except (click.Abort, KeyboardInterrupt):
         click.echo("stopped; nothing more is written", err=True)

@@ -17,7 +17,6 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.files import parse_setting
 
 if TYPE_CHECKING:
-    from tandemlift.missions import Mission
     from tandemlift.pictures.report.paper_report import PaperFlights
 
 
@@ -123,14 +122,7 @@ OUT, MISSION = "out/paper.pdf", "paper"
 
 @click.command()
 @click.option("--out", metavar="FILE", default=OUT, show_default=True, help="FILE.pdf.")
-@click.option(
-    "--mission",
-    metavar="MISSION",
-    default=MISSION,
-    show_default=True,
-    shell_complete=MISSIONS,
-    help="Fly another mission in its place: a name, or the path of a .toml file.",
-)
+@click.option("--mission", default=MISSION, show_default=True, shell_complete=MISSIONS, help="To be flown instead.")
 @flying.set_option
 @click.option("--curves", metavar="FILE.csv", help="Lay your own curves over ours, in Figures 4, 6, 7 and 8.")
 @flying.kept_style_option
@@ -152,10 +144,8 @@ def paper(
       tandemlift paper --curves measured.csv
       tandemlift paper --no-pdf
 
-    FILE.csv has a line of names, then numbers: time in seconds, and any of push_force, admittance_force,
-    admittance_position, admittance_velocity, position, velocity, position_error, velocity_error, moment (x, y, z),
-    euler, attitude_error (roll, pitch, yaw) and thrust, as position_x or position[m].x, in SI units and radians. Files
-    of `tandemlift export` have these names. docs/how-to/figures-for-a-paper.md says which figure has which.
+    FILE.csv is as of `tandemlift export`: a line of names, such as time and position_x or position[m].x, then numbers.
+    docs/how-to/figures-for-a-paper.md says which figure has which names.
 
     \b
     Files, for FILE.pdf:
@@ -172,16 +162,15 @@ def paper(
     path = file_path("--out", out, ".pdf")
     if not no_pdf:
         check_typesetting()
-    own = None
-    if curves is not None:
-        own, left_out = read_curves(file_path("--curves", curves, ".csv"), curve_channels())
+    own, left_out = read_curves(file_path("--curves", curves, ".csv"), curve_channels()) if curves else (None, [])
+    if own:
         echo(f"curves: {', '.join(own)} of {curves}" + (f"; left out: {', '.join(left_out)}" if left_out else ""))
     changes = dict(map(parse_setting, settings))
     load_mission(mission, changes)
     given = [("--out", out if out != OUT else ""), ("--mission", mission if mission != MISSION else "")]
-    given += [("--set", one) for one in settings] + [("--curves", curves or ""), ("--style", style or "")]
-    command = shlex.join(["tandemlift", "paper", *(word for pair in given if pair[1] for word in pair)])
-    command += " --no-pdf" if no_pdf else ""
+    given += [*(("--set", one) for one in settings), ("--curves", curves or ""), ("--style", style or "")]
+    words = [word for option, value in given if value for word in (option, value)]
+    command = shlex.join(["tandemlift", "paper", *words, *(["--no-pdf"] if no_pdf else [])])
     with results_folder(str(path.parent), path.parent, (path.name,)):
         flights = fly_paper(mission, changes)._replace(curves=own)
         folder = path.with_name(f"{path.stem}-files")
@@ -196,16 +185,11 @@ def paper(
 def fly_paper(name: str, changes: Mapping[str, Any]) -> PaperFlights:
     """Fly a mission in place of the paper's, again with each open setting chosen otherwise, and the corridor's."""
     from tandemlift.missions import load_mission
-    from tandemlift.pictures.report.paper_figures import open_settings
+    from tandemlift.pictures.report.paper_figures import with_settings
     from tandemlift.pictures.report.paper_report import PaperFlights
     from tandemlift.simulation.fly import fly_many
 
-    choices: list[Mission | None] = []
-    for setting in open_settings():
-        try:
-            choices.append(load_mission(name, {**changes, **setting.changes}))
-        except InputError:  # a setting of the paper's that this mission does not have
-            choices.append(None)
+    choices = with_settings(name, changes)
     with progress_bar("Flying", "flights") as progress:
         flown, corridor, *others = fly_many(
             [load_mission(name, changes), load_mission("zigzag"), *(one for one in choices if one)], progress=progress

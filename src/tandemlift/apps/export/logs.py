@@ -29,10 +29,10 @@ from tandemlift.apps.export.messages import SECOND
 from tandemlift.apps.export.reading import BASE, read_bag, reading_bag, stamp_of
 from tandemlift.apps.export.topics import MISSION
 from tandemlift.core.errors import InputError, extra, shown, unknown
-from tandemlift.core.files import DATA, FLIGHT_FILE, is_flight_file, toml_tables
+from tandemlift.core.files import DATA, FLIGHT_FILE, toml_tables
 from tandemlift.core.keys import Table
 from tandemlift.core.types import Array
-from tandemlift.flight.record import Flight
+from tandemlift.flight.record import Flight, is_flight_file
 from tandemlift.missions.refusals import problems_in
 
 DEGREE, STANDARD_GRAVITY = math.pi / 180.0, 9.80665  # m/s² of the unit g, by definition

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.core.errors import written
+from tandemlift.core.errors import InputError, unknown, written
 from tandemlift.core.files import DATA, toml_tables
 from tandemlift.missions import idle_keys
 from tandemlift.missions.changes import tables_of, value_at
@@ -62,7 +62,16 @@ class NewBeam(NamedTuple):
 
     @classmethod
     def default(cls, *models: str) -> NewBeam:
-        """The beam that suits one model or two: as light as the lighter of their beams, as long as the longer."""
+        """The beam that suits one model or two: as light as the lighter of their beams, as long as the longer.
+
+        Raises:
+            InputError: a model is unknown, or there are more than two.
+        """
+        if len(models) > 2:
+            raise InputError(f"--quadrotor is given {len(models)} times: the beam has two, so at most twice")
+        for model in models:
+            if model not in quadrotor_models():
+                raise unknown("quadrotor", model, quadrotor_models())
         beams = [_model(model)["beam"] for model in models]
         return cls((models[0], models[-1]), max(b["length"] for b in beams), min(b["mass"] for b in beams))
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import FLIGHT_FILE, is_flight_file, toml_tables
+from tandemlift.core.files import FLIGHT_FILE, toml_tables
 
 if TYPE_CHECKING:
     from tandemlift.flight.record import Flight
@@ -24,6 +24,8 @@ def flight_file(given: str) -> tuple[Path, Path | None]:
     path = Path(given)
     if path.is_dir() and (path / FLIGHT_FILE).exists():
         return path, path / FLIGHT_FILE
+    from tandemlift.flight.record import is_flight_file
+
     if is_flight_file(path):
         return path.parent, path
     return Path("out") / path.stem, None

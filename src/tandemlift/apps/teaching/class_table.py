@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import closing
+from pathlib import Path
 
 from tandemlift.apps.teaching.grading import Grade
 from tandemlift.apps.teaching.hand_ins import Notebook, Skipped
+from tandemlift.apps.teaching.running import graded_each
+from tandemlift.core.files import write_file
+from tandemlift.core.types import Progress
 
 NONE, LATER = "–", "not graded yet"
 
@@ -50,6 +55,24 @@ def csv_of(notebooks: Iterable[Notebook], grades: Mapping[Notebook, Grade], skip
     cells = ([f"'{cell}" if cell.startswith(("=", "+", "-", "@")) else cell for cell in row] for row in rows)
     csv.writer(text := io.StringIO()).writerows([[*head, "remarks"], *cells])
     return text.getvalue()
+
+
+def fill(
+    grades: dict[Notebook, Grade],
+    hand_ins: tuple[Sequence[Notebook], Sequence[Skipped]],
+    exercises: Path,
+    seconds: float,
+    path: Path | None,
+    progress: Progress | None,
+) -> None:
+    """Grade notebooks, each within some seconds, into `grades`; write the table of `csv_of` at `path` after each."""
+    with closing(graded_each(hand_ins[0], exercises, seconds)) as graded:
+        for one, got in graded:
+            grades[one] = got
+            if path:
+                write_file(path, csv_of(hand_ins[0], grades, hand_ins[1]))
+            if progress:
+                progress(len(grades), len(hand_ins[0]))
 
 
 def lines_of(

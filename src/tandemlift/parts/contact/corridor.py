@@ -137,3 +137,10 @@ def wall_warnings(
             distance = math.hypot(*offset(upright, vec3(centre)))
             if distance < q.guard_radius:
                 yield warned(f"quadrotor {j} starts {q.guard_radius - distance:.2g} m deep in {name}")
+
+
+def nearest_wall(walls: Sequence[WallTable], place: Sequence[float]) -> int:
+    """The number of the wall that is nearest to a place [m], seen from above."""
+    at, ends = complex(*place[:2]), [(complex(*wall.start), complex(*wall.end)) for wall in walls]
+    beside = [abs(at - a - (b - a) * min(max(((at - a) / (b - a)).real, 0.0), 1.0)) for a, b in ends]
+    return beside.index(min(beside))

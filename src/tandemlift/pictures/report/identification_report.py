@@ -10,8 +10,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from tandemlift.core.files import versions
 from tandemlift.flight.channels import channel_of
-from tandemlift.flight.record import versions
 from tandemlift.pictures.drawing.figure import Caption
 from tandemlift.pictures.drawing.style import BLUE, GREY, INK, PAPER, look, page_figure, points, styled
 from tandemlift.pictures.report.page import DASH, Cell, PageTable, code, number, shown_figures, strong, write_page

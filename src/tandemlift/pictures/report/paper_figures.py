@@ -6,6 +6,7 @@ A drawing is a diagram of the mission `paper`, an SVG file of the package, or a 
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -16,9 +17,11 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 
+from tandemlift.core.errors import InputError
 from tandemlift.core.files import atomic_write
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
+from tandemlift.missions import Mission, load_mission
 from tandemlift.pictures.drawing.figure import Caption
 from tandemlift.pictures.drawing.overlay import over_time
 from tandemlift.pictures.drawing.scene import NEAR, on_paper
@@ -130,6 +133,17 @@ def diagram_captions() -> dict[str, Caption]:
 def open_settings() -> list[OpenSetting]:
     """The choices that the paper leaves open."""
     return [OpenSetting(**table) for table in _contents()["open"]]
+
+
+def with_settings(name: str, changes: Mapping[str, Any]) -> list[Mission | None]:
+    """A mission with each open setting chosen otherwise; None for a setting of the paper's that it does not have."""
+    found: list[Mission | None] = []
+    for setting in open_settings():
+        try:
+            found.append(load_mission(name, {**changes, **setting.changes}))
+        except InputError:
+            found.append(None)
+    return found
 
 
 def future_work() -> list[dict[str, str]]:

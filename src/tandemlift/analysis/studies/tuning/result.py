@@ -14,8 +14,7 @@ from tandemlift.analysis.studies.tuning.draws import Draw
 from tandemlift.analysis.studies.tuning.holdout import Evidence, as_table
 from tandemlift.analysis.studies.tuning.task import Task, Values
 from tandemlift.core.errors import InputError
-from tandemlift.core.files import write_file
-from tandemlift.flight.record import versions
+from tandemlift.core.files import versions, write_file
 from tandemlift.missions import Mission, built_in, format_toml, tables_of
 from tandemlift.missions.changes import MISSING, Place, Tables, value_at
 

@@ -14,6 +14,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from tandemlift.analysis.certification.certificate import TIERS, Certificate
+from tandemlift.analysis.certification.certificate import time_left as time_left
 from tandemlift.analysis.certification.flown import with_limits
 from tandemlift.analysis.certification.linear import linear_tier
 from tandemlift.analysis.certification.person import ArmBox, person_tier

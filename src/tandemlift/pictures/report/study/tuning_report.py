@@ -10,7 +10,7 @@ from typing import Any
 from tandemlift.analysis.studies.tuning.candidates import Cost
 from tandemlift.analysis.studies.tuning.result import MISSION_FILE, Tuning
 from tandemlift.core.errors import shown
-from tandemlift.flight.record import versions
+from tandemlift.core.files import versions
 from tandemlift.pictures.drawing.style import save
 from tandemlift.pictures.report.page import (
     DASH,
