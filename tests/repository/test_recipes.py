@@ -37,7 +37,8 @@ from tandemlift.missions.json_schema import mission_schema
 from tandemlift.missions.reference import template_text
 
 name, meaning = "compliance.max_force", "largest push that moves the reference"
-assert explained(name).split() == f"{name} [N]: {meaning} Allowed: a number ≥ 0. Default: 100.0 (chosen).".split()
+text = f"{name} [N]: {meaning} Allowed: a number ≥ 0. Default: 100.0 (chosen)."
+assert explained(name).split() == f'{text} Acts where pilot.guidance = "interactive".'.split()
 said = mission_schema()["properties"]["compliance"]["properties"]["max_force"]
 assert (said["minimum"], said["default"]) == (0, 100) and meaning in said["description"]
 assert any("max_force = 100.0" in line and meaning in line for line in template_text().splitlines())
