@@ -51,11 +51,12 @@ pytestmark = pytest.mark.filterwarnings("ignore::tandemlift.FlightWarning")
 def flown(*pushes):
     """The log of a flight under pushes, without what only a simulation knows."""
     log = log_of(tl.fly(load_mission(START, TRUTH | FLOWN | {"pushes": pushes})))
-    return Log({name: stream for name, stream in log.items() if name not in (*PUSH, "rotor_commands")}, "flawed")
+    kept = {name: stream for name, stream in log.items() if name not in (*PUSH, "rotor_commands")}
+    return Log(kept, "flawed", stamp_offset=log.stamp_offset)
 
 
 def changed(log, **streams):
-    return Log({**log, **streams}, "changed")
+    return Log({**log, **streams}, "changed", stamp_offset=log.stamp_offset)
 
 
 def identified(log, mission=START, **options):
@@ -179,7 +180,7 @@ def test_a_stream_that_ends_early_takes_no_windows_of_the_others(log):
     for name in JOINTS:
         time, values = log[name]
         short[name] = Stream(time[time < 20.0], values[time < 20.0])
-    cut = windows_of(Log(short, "short"), mission)
+    cut = windows_of(Log(short, "short", stamp_offset=log.stamp_offset), mission)
     assert np.array_equal(cut.times(), whole.times())
     assert "measured_joint_force at 20 s, measured_joint_torque at 20 s" in cut.notes[0]
     assert not whole.notes
