@@ -9,6 +9,7 @@ import re
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from importlib.util import find_spec
 from typing import Any, NamedTuple
 
 
@@ -63,8 +64,9 @@ def extra(name: str, user: str) -> Iterator[None]:
     try:
         yield
     except ImportError as error:
-        if isinstance(error, ModuleNotFoundError) and error.name and "." not in error.name:
-            raise InputError(f"{user} needs {error.name}: {install_command(name)}") from None
+        package = (error.name or "").partition(".")[0]
+        if isinstance(error, ModuleNotFoundError) and package and find_spec(package) is None:
+            raise InputError(f"{user} needs {package}: {install_command(name)}") from None
         said = " ".join(str(error).split())
         raise InputError(
             f"{user}: a package of the extra {name!r} is installed but cannot be imported: {said}"

@@ -244,7 +244,7 @@ def test_a_lift_that_never_happens_is_a_failure(run):
 
 
 def test_a_flight_that_diverges_in_its_first_step_is_written_and_drawn_as_any(run, tmp_path):
-    code, out, err = run("run", "hover", "--set", "initial.rates=1e200")
+    code, out, err = run("run", "hover", "--set", "initial.rates=[1e200,1e200,1e200]")
     assert code == 3
     assert "hover: diverged at 0.001 s: " in err
     assert "Traceback" not in err

@@ -16,7 +16,6 @@ from tandemlift.apps.cli.console import compile_notices, echo, progress_bar
 from tandemlift.apps.export.results import results_folder
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import parse_setting
-from tandemlift.flight.file_set import write_files
 
 if TYPE_CHECKING:
     from tandemlift.analysis.studies.comparison import MissionComparison
@@ -183,6 +182,7 @@ def benchmark(file: Path | None, quick: bool, out: str | None) -> None:
     from tandemlift.analysis.studies.benchmark import baseline_tables, scores_of, shipped_tables
     from tandemlift.analysis.studies.design.benchmark_columns import csv_of, json_of, lines_of
     from tandemlift.analysis.studies.design.benchmark_entry import checked_folder, entry_of
+    from tandemlift.flight.file_set import write_files
 
     if file is not None and file.is_dir():
         echo(f"{file}: {checked_folder(file)} files, all with their checksums")
