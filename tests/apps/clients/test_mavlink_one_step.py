@@ -166,7 +166,7 @@ def linked():
         now=0.0,
     )
     wire = Wire()
-    return quads, wire, MavlinkVehicle(quads, 1, wire, MavlinkParameters({}, {}))
+    return quads, wire, MavlinkVehicle(quads, 1, wire, MavlinkParameters({}, {}), "generic")
 
 
 def count_of(kind, interval, seconds=2.0):
