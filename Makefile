@@ -5,7 +5,7 @@ BIN := .venv/bin
 PIP := $(BIN)/pip install --disable-pip-version-check $$(test -t 2 || echo --quiet)
 GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
-.PHONY: run live page docs docs-quick test check quick lint types imports tests examples test-learning test-clients test-ros2 test-pythons test-distributions release test-gazebo test-targets validate random-missions mutation-check bench compare-engines bench-peers lock clean help
+.PHONY: run live page docs docs-quick test check quick lint types imports tests examples test-learning test-clients test-ros2 test-pythons test-lowest test-distributions release test-gazebo test-targets validate random-missions mutation-check bench compare-engines bench-peers lock clean help
 
 help:            ## list the targets
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -81,6 +81,9 @@ test-ros2:       ## our nodes beside one of rclpy, of ROS 2 Jazzy and Kilted; in
 
 test-pythons:    ## the fast tests under each installed Python from 3.11 to 3.13
 	tools/test-pythons
+
+test-lowest:     ## each extra at the lowest versions that pyproject.toml allows: what it is for, and its tests
+	tools/test-lowest
 
 test-distributions: .venv/dev  ## build the wheel and the source distribution; try them, and each extra, in fresh environments
 	tools/test-distributions

@@ -2,6 +2,7 @@
 
 import math
 import sys
+from importlib.machinery import BuiltinImporter
 
 import numpy as np
 import pytest
@@ -86,6 +87,6 @@ def test_a_search_and_numpys_own_random_numbers_leave_each_other_alone():
 def test_a_missing_package_is_named_with_the_command_that_installs_it(monkeypatch):
     for name in [name for name in sys.modules if name.partition(".")[0] == "cma"]:
         monkeypatch.delitem(sys.modules, name)
-    monkeypatch.setitem(sys.modules, "cma", None)
+    monkeypatch.setattr(sys, "meta_path", [BuiltinImporter])  # no package is found
     with pytest.raises(InputError, match=r"needs cma: pip install 'tandemlift\[tune\]'"):
         EvolutionStrategy(plain(2), seed=0)
