@@ -140,7 +140,7 @@ def _false_push(rng: np.random.Generator) -> Changes:
     kind, sign = ("bias", "drift", "gusts")[int(rng.integers(3))], float(rng.choice([-1.0, 1.0]))
     if kind == "bias":
         size = sign * float(rng.uniform(0.2, 1.5) if sensor == "joints" else rng.uniform(0.5, 3.0))
-        fault = {"sensor": sensor, "kind": "bias", "time": float(rng.uniform(5.0, 13.0)), "size": size}
+        fault = {"sensor": sensor, "kind": "bias", "time": float(rng.uniform(5.0, 13.0)), "size": [size] * 3}
         return {"sensor_faults": [fault]}
     if kind == "drift":
         key = "sensors.joints.force_drift" if sensor == "joints" else "sensors.accelerometer.drift"
@@ -165,11 +165,11 @@ def shortened(base: str, duration: float = 14.0) -> Changes:
         "phases.lift_duration": min(p.lift_duration, 2.5),
         "phases.land_start": duration - 6.5 if lands else 1e6,
         "phases.land_duration": min(p.land_duration, 3.5),
-        "person.start_time": min(mission.person.start_time, 4.4),
     }
     if e.tare_start is not None:
         changes |= {"estimator.tare_start": 3.2, "estimator.tare_duration": 1.0}
     if mission.person.model not in ("none", "virtual-hand"):
+        changes["person.start_time"] = min(mission.person.start_time, 4.4)
         changes["person.path"] = [{"point": [1.5, mission.person.grip]}]
     pushes = [q.model_dump(mode="json") for q in mission.pushes[-3:]]
     changes["pushes"] = [{**q, "time": 5.5 + 1.5 * i, "sigma": min(q["sigma"], 0.4)} for i, q in enumerate(pushes)]

@@ -49,7 +49,7 @@ def test_where_nobody_pushes_no_mission_at_random_moves_a_metre():
 
 def test_the_judge_says_no_where_a_vehicle_follows_nobody():
     unpushed = next(d for d in random_family(16, UNPUSHED, 12) if "sensor_faults" in d.changes)
-    fault = {"sensor": "joints", "kind": "bias", "time": 5.0, "size": 1.0}
+    fault = {"sensor": "joints", "kind": "bias", "time": 5.0, "size": [1.0] * 3}
     credulous = {"pushes": [], "sensor_faults": [fault], "estimator.confirmation": "none"}
     mission = tl.load_mission("iris", {**shortened("iris", 16.0), **credulous})
     assert judged(unpushed._replace(mission=mission)).verdict.endswith("and nobody pushed")

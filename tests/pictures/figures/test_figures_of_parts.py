@@ -40,7 +40,7 @@ def of_count(flight, count):
     """A flight of `count` quadrotors, whose channels are those of the given one over and over, each a bit larger."""
     channels = dict(flight.channels)
     for name, width in {"joint": 3, "rotor": 4}.items():
-        for own in [n for n in channels if name in n]:
+        for own in [n for n in channels if name in n and channels[n].ndim > 1]:
             copies = np.tile(channels[own], count)[:, : width * count]
             channels[own] = copies * np.repeat(1.0 + 0.01 * np.arange(count), width)
     first = flight.mission["vehicle"]["quadrotors"][0]
