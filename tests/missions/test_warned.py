@@ -196,7 +196,10 @@ FINE = [
     ("iris", {"phases.lift_duration": 1.0, "phases.land_duration": 0.01}),
     ("iris", {"sensors.motion.interval": 0.1}),
     ("iris", {"sensors.interval": 0.02, "sensors.motion.interval": 0.02}),
-    ("iris", {"vehicle.quadrotors.1.position": [0.0, 0.5, 0.2], "vehicle.quadrotors.1.feet_depth": 0.305}),  # a rotor may turn above another one
+    (
+        "iris",
+        {"vehicle.quadrotors.1.position": [0.0, 0.5, 0.2], "vehicle.quadrotors.1.feet_depth": 0.305},
+    ),  # a rotor may turn above another one
     ("flight-ready", REAL),
     ("flight-ready", {"plant.mass_scale": 0.9}),
     ("flight-ready", {"plant.mass_scale": 1.15}),

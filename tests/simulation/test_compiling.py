@@ -93,8 +93,10 @@ def test_other_versions_another_processor_and_another_layout_have_other_keys(mon
 
 
 def test_two_variants_whose_parameters_are_equal_tuples_fly_differently():
-    tanh = tl.fly(tl.load_mission("one-push", {"controller.switching": "tanh", "initial.position": 0.1}))
-    saturation = tl.fly(tl.load_mission("one-push", {"controller.switching": "saturation", "initial.position": 0.1}))
+    tanh = tl.fly(tl.load_mission("one-push", {"controller.switching": "tanh", "initial.position": [0.1, 0.1, 0.1]}))
+    saturation = tl.fly(
+        tl.load_mission("one-push", {"controller.switching": "saturation", "initial.position": [0.1, 0.1, 0.1]})
+    )
     assert not np.array_equal(tanh["thrust"], saturation["thrust"])
 
 

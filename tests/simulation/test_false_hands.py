@@ -12,7 +12,9 @@ HOVER, AWAY = 12.5, 1.0  # s, m
 
 
 def fault(sensor, size, time=15.0, **more):
-    return {"sensor_faults": [{"sensor": sensor, "kind": "bias", "time": time, "size": size, **more}]}
+    """A bias of a size along each axis, or along given ones."""
+    sizes = size if isinstance(size, list) else [size] * 3
+    return {"sensor_faults": [{"sensor": sensor, "kind": "bias", "time": time, "size": sizes, **more}]}
 
 
 FALSE = {  # on top of mission iris, without a push

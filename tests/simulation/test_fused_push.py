@@ -45,7 +45,7 @@ HELD = {"pushes": steady([1.5, -1.0, 0.5], lasts=17.0), "mission.duration": 34.0
 WEAK = [{"quadrotor": 1, "rotor": r, "time": 20.0, "efficiency": 0.95} for r in (1, 2, 3, 4)]
 FLIGHTS = {
     **{wrench: {"estimator.wrench": wrench} for wrench in ("joints", "kalman", "fused")},
-    "both joints": {**HELD, "sensor_faults": [{**FAULT, "size": 0.5}]},
+    "both joints": {**HELD, "sensor_faults": [{**FAULT, "size": [0.5, 0.5, 0.5]}]},
     "one joint": {**HELD, "sensor_faults": [{**FAULT, "size": [0.0, 0.0, 0.6], "quadrotor": 1}]},
     "gust": {"pushes": [], "mission.duration": 34.0, **gusts(([3.0, -2.0, 0.0], 20.0, 0.5, 8.0))},
     "thrust": {"pushes": [], "mission.duration": 34.0, "faults": WEAK},

@@ -76,7 +76,7 @@ def test_a_flight_that_flies_on_ends_at_rest_and_counts_until_the_crash(flown):
         ("iris", {"mission.duration": 30.0}, "flying"),
         ("iris", {"disturbance.force": [0.0, 0.0, -30.0], "mission.duration": 9.0}, "not-lifted"),
         ("iris", {"disturbance.force": [0.0, 0.0, -30.0], "mission.duration": 3.0}, "landed"),
-        ("hover", {"initial.rates": 1e200}, "diverged"),
+        ("hover", {"initial.rates": [1e200, 1e200, 1e200]}, "diverged"),
     ],
 )
 @pytest.mark.filterwarnings("ignore::tandemlift.FlightWarning")

@@ -215,7 +215,11 @@ def test_friction_holds_below_its_limit_and_yields_above_it():
 
 
 def test_a_crooked_landing_goes_as_in_the_compiled_engine():
-    fall = {"initial.euler": [0.02, -0.015, 0.3], "initial.position": [0.0, 0.0, 0.03], "initial.velocity": [0.2, 0.2, 0.2]}
+    fall = {
+        "initial.euler": [0.02, -0.015, 0.3],
+        "initial.position": [0.0, 0.0, 0.03],
+        "initial.velocity": [0.2, 0.2, 0.2],
+    }
     body, ground, mission, vehicle = standing("paper", fall)
     state, plant = start_state(mission), start_plant(mission, vehicle, ground, Absent())
     grip, off, still = start_foot_grip(ground, state), each(8)(*[0.0] * 8), CentralPush(vec3(NONE))

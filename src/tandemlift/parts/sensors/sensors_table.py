@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, Field, model_validator
 
 from tandemlift.core.algebra import sqrt
-from tandemlift.core.keys import Delay, Exactly3, NonNegative, Positive, Size, Table, key, must
+from tandemlift.core.keys import Delay, Exactly3, NonNegative, Positive, Size, Table, is_number, key, must
 from tandemlift.parts.sensors.vehicle_sensors import ADDITIONAL, DEVICES, SENSORS, sensors_on
 
 FINEST = 1e-9  # resolution of a sensor, in its unit
@@ -237,7 +237,15 @@ class SensorFaultTable(Table):
         (0.0, 0.0, 0.0),
         THE_SENSORS,
         "offset, or the reading in its place; a force for joints, a rotation about body axes [rad] for the attitude",
+        rule="or one number for a sensor that reads one",
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_one_number(cls, data: Any) -> Any:
+        sensor = ADDITIONAL.get(str(data.get("sensor"))) if isinstance(data, dict) else None
+        one = sensor is not None and sensor.width == 1 and is_number(data.get("size"))
+        return {**data, "size": (data["size"], 0.0, 0.0)} if one else data
 
 
 ERRORS = ("noise", "bias", "drift", "misalignment")  # keys, at the end of their names
