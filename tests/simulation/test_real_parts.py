@@ -148,7 +148,7 @@ def test_its_first_steps_are_those_of_plain_python():
     assert commands.max() < 7.06  # N: no limit is met, so laws.rotors.thrust_limit_solver has nothing to do
     assert flight["contact_force"][:, 0].min() < -0.1
     assert flight["contact_force"][:, 2].max() > 0.1
-    for name in flight:
+    for name in (name for name in flight if not name.endswith("_stamp")):
         rows = np.array([shown(s, name) for s in samples])
         recorded = flight[name].reshape(len(flight.time), -1)[: len(rows)]
         np.testing.assert_allclose(recorded, rows, rtol=1e-8, atol=1e-8, err_msg=name)  # roundings differ

@@ -51,7 +51,9 @@ TRIED_WITH = {  # each fault by its text, and the changes of the mission that le
     "motion stale": sensors(failed("motion", "stale")),
     **{f"{sensor} frozen": sensors(failed(sensor, "frozen")) for sensor in TOO_MUCH},
     **{f"{sensor} not a number": sensors(failed(sensor, "nan")) for sensor in TOO_MUCH},
-    **{f"{sensor} out of range": sensors(failed(sensor, "range", size=[size] * 3)) for sensor, size in TOO_MUCH.items()},
+    **{
+        f"{sensor} out of range": sensors(failed(sensor, "range", size=[size] * 3)) for sensor, size in TOO_MUCH.items()
+    },
     "joints disagree": sensors(failed("joints", "bias", quadrotor=1, size=[5, 0, 0])),
     "attitude disagrees with gyroscope": sensors(failed("gyroscope", "bias", size=[0.4, 0, 0])),
     "velocity disagrees with position": sensors(failed("velocity", "bias", size=[0.25, 0, 0])),

@@ -34,7 +34,7 @@ class Quick:
         llvmlite.binding.parse_assembly = self._noticed(llvmlite.binding.parse_assembly, within=LAWS)
 
     def _hear(self, event, args):
-        if event in STARTS and Path(args[0]).name != "git":
+        if event in STARTS and not (args and Path(args[0]).name == "git"):
             self.slow = True
 
     def _noticed(self, function, within):

@@ -99,9 +99,12 @@ def test_on_a_phone_nothing_of_a_flight_is_cut_off_covered_or_too_small_for_a_fi
     beside, picture = page.locator("#panel").bounding_box(), page.locator("#view").bounding_box()
     assert beside["x"] >= picture["x"] + picture["width"] or beside["y"] >= picture["y"] + picture["height"]
     margin = 20.0  # pixels
-    until(lambda: np.ptp(beam_pixels(page)[0]) > 100.0, "a beam")
-    x, _ = beam_pixels(page)
-    assert margin < x.min() < x.max() < picture["width"] - margin
+
+    def is_whole():
+        x, _ = beam_pixels(page)
+        return np.ptp(x) > 100.0 and margin < x.min() < x.max() < picture["width"] - margin
+
+    until(is_whole, "a whole beam")
     assert page.evaluate("p => p.scrollWidth <= p.clientWidth", page.query_selector("#panel"))
     page.click("#show-help")
     told = page.get_by_role("dialog", name="Push the beam yourself")

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from tandemlift.apps.live import grading
+from tandemlift.apps.teaching import running
 
 
 def opened(own: str, path: str, pipe) -> None:
     """In a process of its own, as the guard stays: what the guard says of opening a file."""
-    tried = grading._guard(Path(own))
+    tried = running._guard(Path(own))
     try:
         Path(path).read_text("utf-8")
         pipe.send((tried, "read"))
