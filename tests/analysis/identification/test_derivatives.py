@@ -1,10 +1,12 @@
 """Predictions and equations of an identification against differences and sums."""
 
-from functools import cached_property
+from functools import cached_property, partial
 from types import SimpleNamespace
 
+import flight_windows
 import numpy as np
 import pytest
+from flight_windows import cut, iris
 
 from tandemlift.analysis.identification.equations import ROBUST, Linearisation, _block_means
 from tandemlift.analysis.identification.prediction import (
@@ -17,36 +19,13 @@ from tandemlift.analysis.identification.prediction import (
     moved_starts,
 )
 from tandemlift.analysis.identification.sensor_errors import SensorPriors
-from tandemlift.analysis.identification.windows import (
-    FlightWindows,
-    Samples,
-)
 from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, Stream, conjugate
 from tandemlift.analysis.logs.log import quaternion_product as product
 from tandemlift.core.types import flat
 from tandemlift.engines.vehicle_unknowns import unknowns_of
-from tandemlift.missions import load_mission
 
 RNG = np.random.default_rng(11)
-
-
-def iris():
-    return load_mission("iris")
-
-
-def cut(first=(100, 200, 300), length=100, block=10, samples=None, commands=None, count=450, step=0.002):
-    """Windows of a grid that begins at 5 s."""
-    commands = commands or Stream(np.array([4.0, 9.0]), np.zeros((2, 8)))
-    pushes = np.zeros((count, 6))
-    return FlightWindows("log", step, 5.0, count, np.array(first), length, block, commands, pushes, samples or {})
-
-
-def sampled(windows, width=3, per=20, values=None):
-    """Samples of each window, evenly."""
-    window = np.repeat(np.arange(windows), per)
-    step = np.tile(np.arange(per) * 5, windows)
-    values = RNG.normal(size=(len(window), width)) if values is None else values
-    return Samples(window, step, np.zeros(len(window)), values)
+sampled = partial(flight_windows.sampled, rng=RNG)
 
 
 # predictions

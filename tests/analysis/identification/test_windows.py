@@ -1,11 +1,13 @@
 """Windows of a log against closed forms: times, commands, spikes, what flies."""
 
+from functools import partial
+
+import flight_windows
 import numpy as np
 import pytest
+from flight_windows import cut, iris
 
 from tandemlift.analysis.identification.windows import (
-    FlightWindows,
-    Samples,
     _clear,
     _in_flight,
     _speeds,
@@ -15,31 +17,12 @@ from tandemlift.analysis.identification.windows import (
 from tandemlift.analysis.logs.log import COMMANDS, IMU, MOTION, SPEED_COMMANDS, Log, Stream
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY
-from tandemlift.missions import load_mission
 
 RNG = np.random.default_rng(11)
-
-
-def iris():
-    return load_mission("iris")
+sampled = partial(flight_windows.sampled, rng=RNG)
 
 
 # windows
-
-
-def cut(first=(100, 200, 300), length=100, block=10, samples=None, commands=None, count=450, step=0.002):
-    """Windows of a grid that begins at 5 s."""
-    commands = commands or Stream(np.array([4.0, 9.0]), np.zeros((2, 8)))
-    pushes = np.zeros((count, 6))
-    return FlightWindows("log", step, 5.0, count, np.array(first), length, block, commands, pushes, samples or {})
-
-
-def sampled(windows, width=3, per=20, values=None):
-    """Samples of each window, evenly."""
-    window = np.repeat(np.arange(windows), per)
-    step = np.tile(np.arange(per) * 5, windows)
-    values = RNG.normal(size=(len(window), width)) if values is None else values
-    return Samples(window, step, np.zeros(len(window)), values)
 
 
 def test_windows_begin_when_their_steps_do():
