@@ -2,6 +2,7 @@
 
 import builtins
 import shutil
+from importlib.util import find_spec
 
 import numpy as np
 import pytest
@@ -164,6 +165,7 @@ def test_a_package_that_is_not_installed_is_named_with_the_command_that_installs
         return real(name, *rest, **named)
 
     monkeypatch.setattr(builtins, "__import__", importing)
+    monkeypatch.setattr("tandemlift.core.errors.find_spec", lambda name: None if name == package else find_spec(name))
     with pytest.raises(tl.InputError, match=rf"needs {package}: pip install 'tandemlift\[{extra}\]'"):
         ask(gusts)
 
