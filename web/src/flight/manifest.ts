@@ -44,6 +44,8 @@ export interface TunableParameter {
   count: number; // of its list; 0 if it takes none
   out_of_bounds: string;
   wrong_shape: string;
+  zero: string; // why 0 does not stand for all of a list; empty if it does
+  one_number: string; // likewise for any other number
 }
 
 export interface Rotor {

@@ -27,7 +27,7 @@ from tandemlift.core.types import flat, zeroed
 from tandemlift.core.vector import ZERO, Quat
 from tandemlift.flight import corridor_score
 from tandemlift.flight.record import CAUSE_TEXT, ENDING_TEXT
-from tandemlift.missions import tables_of
+from tandemlift.missions import changed, tables_of
 from tandemlift.missions.changes import Tables
 from tandemlift.missions.key_descriptions import allowed, bounds, plain
 from tandemlift.parts.pilot.refusals import refusal_numbers
@@ -170,7 +170,7 @@ def _challenge(plan: FlightPlan) -> dict[str, Any]:
 
 
 def _tunable(plan: FlightPlan, tables: Tables, shown: SceneParameter) -> dict[str, Any]:
-    """A parameter as the page has it, with the refusals of values out of bounds and of lists of another length."""
+    """A parameter as the page has it, with the refusals of values out of bounds and of another shape."""
     keys, value = keys_of(tables, shown["key"]), shown["value"]
     rule = _refusal(plan, keys[0], [1.0] * (MOST_NUMBERS + 1)).rpartition(": ")[2]
     return {
@@ -179,7 +179,18 @@ def _tunable(plan: FlightPlan, tables: Tables, shown: SceneParameter) -> dict[st
         "count": len(value) if isinstance(value, list) else 0,
         "out_of_bounds": checks.OUT_OF_BOUNDS.format(key="{key}", value="{value}", low=shown["min"], high=shown["max"]),
         "wrong_shape": f"mission: {keys[0]} = {{value}}: {rule}",
+        "zero": _spread(plan, keys[0], 0.0) if isinstance(value, list) else "",
+        "one_number": _spread(plan, keys[0], shown["max"] or shown["min"]) if isinstance(value, list) else "",
     }
+
+
+def _spread(plan: FlightPlan, key: str, number: float) -> str:
+    """Why one number does not stand for all of a list; empty if it does."""
+    try:
+        changed(plan.mission, key, number)
+    except InputError as error:
+        return str(error).replace(f" = {number}:", " = {value}:").replace(f"[{number},", "[{value},")
+    return ""
 
 
 def _absent(plan: FlightPlan, tables: Tables, present: set[str]) -> dict[str, str]:

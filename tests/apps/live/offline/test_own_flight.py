@@ -87,6 +87,21 @@ def test_settings_of_a_link_that_are_out_of_bounds_are_each_named_and_the_rest_i
     assert (values["admittance.damping"], values["admittance.mass"]) == ([4, 4, 4], [1, 1, 1])
 
 
+def test_one_number_of_a_link_stands_for_all_axes_of_a_gain_but_for_no_direction_in_space(hover):
+    said = opened(hover, [["wind.velocity", 3], ["admittance.damping", 4], ["admittance.mass", 2]])
+    (refused,) = [one["reason"] for one in said if one["type"] == "refused"]
+    rule = "must be 0 or a list of 3 numbers, each ≥ -1000 and ≤ 1000, such as [3, 0, 0]"
+    assert refused == f"mission: wind.velocity = 3: {rule}"
+    with pytest.raises(tl.InputError) as python:
+        tl.load_mission("hover", {"wind.velocity": 3})
+    assert str(python.value) == f"hover: wind.velocity = 3: {rule}"
+    (scene,) = [one for one in said if one["type"] == "scene"]
+    values = {one["key"]: one["value"] for one in scene["parameters"]}
+    assert (values["wind.velocity"], values["admittance.damping"]) == ([0, 0, 0], [4, 4, 4])
+    said = opened(hover, [["wind.velocity", [1, -2, 0.5]], ["wind.velocity", 0]])
+    assert [one["reason"] for one in said if one["type"] == "refused"] == []
+
+
 # saved files
 
 

@@ -60,13 +60,14 @@ ABSENT = (  # what only a guided mission, or one whose rotors may fail, has
 
 
 def wrong_values(scene):
-    """Settings out of bounds, lists of other lengths, and a setting of each parameter that a mission does not have."""
+    """Settings out of bounds or of other shapes, and a setting of each parameter that a mission does not have."""
     present = {one["key"] for one in scene["parameters"]}
     for key, parameter in BY_KEY.items():
         if key not in present:
             yield {"type": "set", "key": key, "value": parameter.high}
             continue
-        for value in (parameter.low - 1.0, parameter.high * 1.5, [parameter.high] * 2, [parameter.high] * 7):
+        short = [parameter.high] if parameter.low < 0.0 else []  # what may be negative has a direction
+        for value in (parameter.low - 1.0, parameter.high * 1.5, *short, [parameter.high] * 2, [parameter.high] * 7):
             yield {"type": "set", "key": key, "value": value}
 
 
