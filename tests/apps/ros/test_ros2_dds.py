@@ -23,7 +23,6 @@ from tandemlift.apps.ros.dds_types import DdsTypes
 from tandemlift.apps.ros.ros2 import LOG, ROSOUT, WARN, Ros2, _domain, _qos, _value
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
-pytestmark = pytest.mark.ros
 COUNT = 300
 KINDS = [
     *("nav_msgs/Odometry", "nav_msgs/Path", "geometry_msgs/WrenchStamped", "sensor_msgs/JointState", "sensor_msgs/Imu"),
@@ -182,6 +181,7 @@ def seen(tried, verb):
     return [lines for name, *lines in tried[0] if name == verb]
 
 
+@pytest.mark.ros
 def test_fast_dds_reads_every_message_with_the_flight_s_numbers(tried):
     rows, flight = [line.split() for line in seen(tried, "read")[0]], tried[1]
     assert {tuple(row[1:3]) for row in rows} == {("world", "base_link")}
@@ -195,12 +195,14 @@ def test_fast_dds_reads_every_message_with_the_flight_s_numbers(tried):
     assert np.array_equal(numbers[:, 10:], flight["rates"][samples])
 
 
+@pytest.mark.ros
 def test_a_push_by_fast_dds_moves_the_beam(tried):
     before, after = (float(lines[-1].split()[3]) for lines in seen(tried, "read"))
     assert after - before > 0.1
     assert tried[1]["push_force"][:, 0].max() == pytest.approx(1.5, abs=0.01)
 
 
+@pytest.mark.ros
 def test_requests_are_answered_and_settings_are_heeded(tried):
     (lift,), (dance,), (land,) = seen(tried, "request")
     assert lift.startswith("refused: Lift is refused: the vehicle is in the air already.")
