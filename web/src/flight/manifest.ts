@@ -42,10 +42,11 @@ export interface TunableParameter {
   shown: SceneParameter & { min: number; max: number };
   keys: string[];
   count: number; // of its list; 0 if it takes none
+  alone: boolean; // whether it takes one number, which stands for all of a list
+  zero: boolean; // whether 0 does so at least
   out_of_bounds: string;
   wrong_shape: string;
-  zero: string; // why 0 does not stand for all of a list; empty if it does
-  one_number: string; // likewise for any other number
+  such_as: string; // what follows if it is one number
 }
 
 export interface Rotor {

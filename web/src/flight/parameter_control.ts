@@ -87,8 +87,9 @@ export class ParameterControl {
       if (!(number >= min && number <= max)) throw new Refusal(parameter.out_of_bounds, said);
     }
     if (Array.isArray(value) && value.length !== parameter.count) throw new Refusal(parameter.wrong_shape, said);
-    const spread = Array.isArray(value) ? "" : value === 0 ? parameter.zero : parameter.one_number;
-    if (spread !== "") throw new Refusal(spread, said);
+    if (!Array.isArray(value) && !parameter.alone && !(value === 0 && parameter.zero)) {
+      throw new Refusal(parameter.wrong_shape + parameter.such_as, said);
+    }
     return parameter;
   }
 

@@ -27,7 +27,7 @@ from tandemlift.core.types import flat, zeroed
 from tandemlift.core.vector import ZERO, Quat
 from tandemlift.flight import corridor_score
 from tandemlift.flight.record import CAUSE_TEXT, ENDING_TEXT
-from tandemlift.missions import changed, tables_of
+from tandemlift.missions import tables_of
 from tandemlift.missions.changes import Tables
 from tandemlift.missions.key_descriptions import allowed, bounds, plain
 from tandemlift.parts.pilot.refusals import refusal_numbers
@@ -173,24 +173,17 @@ def _tunable(plan: FlightPlan, tables: Tables, shown: SceneParameter) -> dict[st
     """A parameter as the page has it, with the refusals of values out of bounds and of another shape."""
     keys, value = keys_of(tables, shown["key"]), shown["value"]
     rule = _refusal(plan, keys[0], [1.0] * (MOST_NUMBERS + 1)).rpartition(": ")[2]
+    count = len(value) if isinstance(value, list) else 0
     return {
         "shown": shown,
         "keys": keys,
-        "count": len(value) if isinstance(value, list) else 0,
+        "count": count,
+        "alone": count == 0 or rule.startswith("must be one number or "),
+        "zero": rule.startswith("must be 0 or "),
         "out_of_bounds": checks.OUT_OF_BOUNDS.format(key="{key}", value="{value}", low=shown["min"], high=shown["max"]),
         "wrong_shape": f"mission: {keys[0]} = {{value}}: {rule}",
-        "zero": _spread(plan, keys[0], 0.0) if isinstance(value, list) else "",
-        "one_number": _spread(plan, keys[0], shown["max"] or shown["min"]) if isinstance(value, list) else "",
+        "such_as": f", such as [{{value}}{', 0' * (count - 1)}]",
     }
-
-
-def _spread(plan: FlightPlan, key: str, number: float) -> str:
-    """Why one number does not stand for all of a list; empty if it does."""
-    try:
-        changed(plan.mission, key, number)
-    except InputError as error:
-        return str(error).replace(f" = {number}:", " = {value}:").replace(f"[{number},", "[{value},")
-    return ""
 
 
 def _absent(plan: FlightPlan, tables: Tables, present: set[str]) -> dict[str, str]:
