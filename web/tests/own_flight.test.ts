@@ -18,6 +18,8 @@ test("a value is shown on one line of bounded length", () => {
 });
 
 test("a link says mission and settings, and what is no number stays a text", () => {
+  const lists = "a=[3, 0, 0]&b=[2]&c=[3,[0]]&d=%5B1,2%5D";
+  assert.deepEqual(readLink(`#${lists}`).settings, [["a", [3, 0, 0]], ["b", [2]], ["c", "[3,[0]]"], ["d", [1, 2]]]);
   const { mission, settings } = readLink("#mission=iris&admittance.mass=2&wind.velocity=3,0,-0.5&x=abc&y=&z=1,a");
   assert.equal(mission, "iris");
   const expected = [["admittance.mass", 2], ["wind.velocity", [3, 0, -0.5]], ["x", "abc"], ["y", ""], ["z", "1,a"]];

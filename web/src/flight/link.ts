@@ -10,7 +10,7 @@ export interface Link {
   settings: Setting[];
 }
 
-/** What a link says; a value that is no number stays a text, which is refused where it is set. */
+/** What a link says, lists with or without brackets; what is no number stays a text, which is refused where it is set. */
 export function readLink(hash: string): Link {
   const entries = [...new URLSearchParams(hash.replace(/^#/, ""))];
   const settings = entries.filter(([key]) => key !== "mission").map(([key, text]) => [key, valueOf(text)] as const);
@@ -27,7 +27,8 @@ export function linkOf(mission: string, parameters: readonly SceneParameter[]): 
 const textOf = (value: ParameterValue): string => [value].flat().join(",");
 
 function valueOf(text: string): number | string | readonly number[] {
-  const parts = text.split(",").map((part) => (part.trim() === "" ? Number.NaN : Number(part)));
+  const list = text.trim().replace(/^\[(.*)\]$/, "$1");
+  const parts = list.split(",").map((part) => (part.trim() === "" ? Number.NaN : Number(part)));
   if (!parts.every(Number.isFinite)) return text;
-  return parts.length === 1 ? parts[0] : parts;
+  return parts.length === 1 && list === text.trim() ? parts[0] : parts;
 }
