@@ -188,6 +188,11 @@ class FlightScene(TypedDict):
     parameters: Annotated[list[SceneParameter], "what may be changed in flight"]
     missions: NotRequired[Annotated[list[SceneMission], "that a page may `fly`"]]
     replay: NotRequired[Annotated[SceneReplay, "span of a saved flight"]]
+    authority: NotRequired[
+        Annotated[
+            list[float], "that rotors counter in hover: force across, up and down, N; moments about each axis, N m"
+        ]
+    ]
 
 
 class PreparationStatus(TypedDict):
