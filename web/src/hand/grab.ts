@@ -150,9 +150,8 @@ export class Grab {
     }
     const grab = { type: "grab", point, target, at: centre ? "centre" : "point" } as const;
     const seq = kind === "shake" ? Infinity : (this.page.send(grab, event.timeStamp) ?? 0);
-    const shakenFrom = kind === "shake" ? target : null;
     this.page.surface.setPointerCapture(event.pointerId);
-    this.held = { pointer: event.pointerId, point, offset: subtract(target, hit), depth, height, target, seq, shakenFrom };
+    this.held = { pointer: event.pointerId, point, offset: subtract(target, hit), depth, height, target, seq, shakenFrom: kind === "shake" ? target : null };
     this.page.surface.classList.add("pulling");
   }
 

@@ -7,15 +7,13 @@ import { badgeOf } from "./phases.ts";
 
 const HOLDERS = { you: "you", other: "another page", none: "nobody" };
 const SHARE = "Of what the rotors counter in hover: the largest part, of force across, up, down and of the moment about an axis";
-const MOST = 9.99;
-const TOO_MUCH = "More than the rotors counter in hover";
 const LATE = 0.97; // real-time factor below which the number is marked
 
 /** The largest share of the rotors that the true push takes, of force across, up or down and moment about each axis. */
 export function takenBy(frame: Frame, [across, up, down, ...about]: readonly number[]): number {
   const [x, y, z] = frame.vector("push");
   const turning = frame.vector("push_moment").map((part, i) => Math.abs(part) / about[i]);
-  return Math.min(Math.max(Math.hypot(x, y) / across, z / (z > 0 ? up : -down), ...turning), MOST);
+  return Math.max(Math.hypot(x, y) / across, z / (z > 0 ? up : -down), ...turning);
 }
 
 export class StatusBar {
@@ -40,7 +38,7 @@ export class StatusBar {
 
   scene({ mission, controller, engine, version, authority }: FlightScene): void {
     this.authority = authority;
-    this.share.hidden = !authority;
+    this.share.parentElement?.toggleAttribute("hidden", !authority); // rotors without limits
     byId("mission").textContent = mission;
     byId("controller").textContent = controller;
     byId("mission").title = `engine ${engine}, version ${version}`;
@@ -67,7 +65,7 @@ export class StatusBar {
   /** A few times a second: what changes with every picture. */
   update(frame: Frame | null, latency: number | null, rate: number | null): void {
     if (frame) this.set("time", `${frame.scalar("time").toFixed(1)} s`);
-    if (this.authority) this.set("hand takes", `${(100 * this.taken).toFixed(0)} %`, this.taken > 1 ? TOO_MUCH : "");
+    if (this.authority) this.set("hand takes", `${(100 * this.taken).toFixed(0)} %`, this.taken > 1 ? SHARE : "");
     [this.share.value, this.taken] = [this.taken, 0];
     this.set("latency", latency === null ? "\u2013" : `${latency.toFixed(0)} ms`);
     this.set("frame rate", rate === null ? "at rest" : `${rate.toFixed(0)}/s`);
