@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -203,12 +202,11 @@ def flight_checks(m: Mission) -> tuple[CheckResult, ...]:
     by_hand, schedule = m.by_hand, schedule_checks.Schedule(m.phases, m.pushes, m.admittance, m.by_hand, end)
     compliant_yaw = by_hand is not None and by_hand.yaw.model == "compliant"
     each = loads_of(m.disturbance, wind, m.pushes, end, yielding_yaw=compliant_yaw)
-    usable = None if by_hand is None else by_hand.thrust_fraction
+    usable, longest = (None, end) if by_hand is None else (by_hand.thrust_fraction, by_hand.following.time)
     lifting = m.supervision.checks.thrust_fraction if m.supervision.model == "on" else None
-    promise, landed = promise_of(m.promise, pilot.guidance), m.outcome.landed_height
-    promised, longest = promise.rms_promised(pilot.guidance), by_hand.following.time if by_hand else math.inf
+    promised = (promise := promise_of(m.promise, pilot.guidance)).rms_promised(pilot.guidance)
     lands = m.ground.model == "none" and m.phases.land_start is not None and m.phases.land_start < end
-    offsets = (promised, promised, min(promised, landed) if lands else promised)
+    offsets = (promised, promised, min(promised, m.outcome.landed_height) if lands else promised)
     windy = wind.blows and pilot.push != "truth"  # wind on the payload counts as a push
     joined = windy or m.person.model != "none" or any(change.key.startswith("admittance") for change in m.changes)
     loads = Loads(each, promise.distance, promise.tilt, promise.heading, longest, hover.response_time)

@@ -205,7 +205,7 @@ export interface FlightScene {
   parameters: SceneParameter[]; // what may be changed in flight
   missions?: SceneMission[]; // that a page may `fly`
   replay?: SceneReplay; // span of a saved flight
-  authority?: readonly number[]; // that rotors counter in hover: force across, up and down, N; moments about each axis, N m
+  authority?: readonly number[]; // of rotors in hover: across, up, down, N; about each axis, N m
 }
 
 /** Why a request would be refused right now, and what to do; each a sentence or two, empty if it would not. */

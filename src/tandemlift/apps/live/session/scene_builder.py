@@ -19,7 +19,6 @@ from tandemlift.core.vector import Absent
 from tandemlift.engines.models.scene import floor_from
 from tandemlift.engines.models.visuals import BEAM_RADIUS, SHAPELESS, VisualShape, vehicle_shapes
 from tandemlift.missions import Mission, tables_of
-from tandemlift.parts.controllers.interface import tilt_limit_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import Quadrotor
 from tandemlift.simulation.plan import FlightPlan
@@ -39,7 +38,7 @@ def scene_of(mission: Mission, engine: str) -> server.FlightScene:
     walls = [w.model_dump(mode="json") for w in mission.all_walls]
     scene, hover = scene_of_tables(tables_of(mission), walls, vehicle, engine, height), mission.hover
     if hover.actuators.model == "rotors":
-        across = hover.weight * math.tan(tilt_limit_of(mission.controller) or mission.compliance.max_tilt)
+        across = hover.weight * math.tan(getattr(mission.controller, "max_tilt", None) or mission.compliance.max_tilt)
         scene["authority"] = [across, hover.weight, hover.lift - hover.weight, *hover.authority.tolist()]
     return scene
 
