@@ -3,6 +3,8 @@
 Most rows were once loaded without a word, flown, and ended badly.
 """
 
+import numpy as np
+import pytest
 from for_all import for_all
 from validation.scenarios import BASE, WINDY
 from warned import warnings_of
@@ -35,7 +37,7 @@ def rotors(**factors):
 
 
 def push(force, **keys):
-    return {"pushes": [{"time": 15.0, "sigma": 0.6, "force": force, **keys}]}
+    return {"pushes": [{"time": 15.0, "sigma": 0.6, "force": force} | keys]}
 
 
 def wind(x, y, **keys):
@@ -47,6 +49,14 @@ def gusts(*rows):
     return {"wind.model": "air", "wind.gusts": [dict(zip(keys, row, strict=False)) for row in rows]}
 
 
+SHORT = {  # the largest force is more than the rotors counter, the speed that it leaves is small
+    "10 N for 10 ms": push([10.0, 0.0, 0.0], sigma=0.01),
+    "20 N for 50 ms": push([20.0, 0.0, 0.0], sigma=0.05),
+    "9.5 N for 0.3 s": push([9.5, 0.0, 0.0], sigma=0.3),
+    "30 N up at an end for 10 ms": push([0.0, 0.0, 30.0], sigma=0.01, point=[0.0, 1.0, 0.0]),
+    "30 N down for 10 ms": push([0.0, 0.0, -30.0], sigma=0.01),
+}
+TAPS = {"pushes": [SHORT["20 N for 50 ms"]["pushes"][0] | {"time": 15.0 + 0.1 * i} for i in range(8)]}
 AIR, ROUGH = {"wind.model": "air", "wind.turbulence": 3.0}, {"wind.turbulence": 7.7}
 X2, X4 = [2.0, 0.0, 0.0], [4.0, 0.0, 0.0]
 HEARD = "turbulence pushes the payload along x"
@@ -129,6 +139,9 @@ TOLD = {  # of mission iris: changes, and what the warnings must say of them
     "a push into the floor": (push([0.0, 0.0, -5.0]), ["pushes.0 moves the reference down", "phases.height = 1 m"]),
     "a push that turns over": (push([10.0, 0.0, 0.0], point=[0.0, 0.0, 0.5]), ["pitch moment of 5 N m"]),
     "a push that carries away": (push([15.0, 0.0, 0.0]), ["15 N across", "controller.max_tilt"]),
+    "many taps": (TAPS, ["in pushes.", "N across", "controller.max_tilt"]),
+    "a tap too hard": (push([60.0, 0.0, 0.0], sigma=0.06), ["60 N across", "the vehicle is carried away"]),
+    "a push that goes on too long": (push([9.5, 0.0, 0.0], sigma=0.7), ["9.5 N across", "controller.max_tilt"]),
     "a push in the lift": (push([3.0, 0.0, 0.0], time=5.0), ["pushes.0 has its peak at 5 s", "12 s"]),
     "a push in the air": (push([0.0, 0.0, 1.0], point=[0.0, 1.6, 0.0]), ["is 0.22 m beside the vehicle"]),
     "a push below the threshold": (
@@ -212,6 +225,14 @@ FINE = [
 @for_all(FINE)
 def test_what_flies_well_is_not(case):
     assert warnings_of(*case) == ""
+
+
+@pytest.mark.parametrize("tap", SHORT)
+def test_a_tap_that_the_rotors_cannot_counter_is_warned_of_only_if_it_carries_the_vehicle_away(tap):
+    flight = tl.fly(load_mission("iris", SHORT[tap]))
+    assert warnings_of("iris", SHORT[tap]) == ""
+    assert flight.findings == ()
+    assert np.linalg.norm(flight["reference_position"] - flight["position"], axis=1).max() < 0.13
 
 
 TOGETHER = [{"time": time, "sigma": 0.6, "force": [0.2, 0.0, 0.0]} for time in (15.0, 15.2)]

@@ -12,7 +12,7 @@ GOOD = [
     {"type": "grab", "seq": 1, "point": [0.0, 1.0, 0.0], "target": [1.0, 2.0, 3.0], "at": "point"},
     {"type": "move", "seq": 2, "target": [1.0, 2.0, 3.0]},
     {"type": "release", "seq": 3},
-    {"type": "force", "seq": 4, "force": [0.0, 1.0, 0.0], "point": [0.0, 0.0, 0.0]},
+    {"type": "force", "seq": 4, "force": [0.0, 1.0, 0.0], "point": [0.0, 0.0, 0.0], "frequency": 4.0, "duration": 0.05},
     {"type": "set", "seq": 5, "key": "admittance.mass", "value": [1.0, 2.0, 3.0]},
     {"type": "set", "seq": 6, "key": "controller.name", "value": "pid"},
     {"type": "set", "seq": 7, "key": "admittance.hold_after_release", "value": True},

@@ -36,7 +36,7 @@ import type { Compare, FlightListener, FlightSource, FlownScene, FlownStatus } f
 const REDRAW_AFTER = 100; // ms: overlays may have been switched although nothing moved
 
 export class App implements FlightListener, ShellPage {
-  readonly hand: HandOptions = { at: "point", plane: "facing", force: 3, directions: "view" };
+  readonly hand: HandOptions = { at: "point", plane: "facing", kind: "push", frequency: 4, force: 3, directions: "view" };
   readonly shown = rememberedShown();
   readonly latency = new Latency();
   readonly frameRate = new FrameRate();
@@ -75,6 +75,7 @@ export class App implements FlightListener, ShellPage {
       send,
       options: this.hand,
       frame: () => this.current,
+      stiffness: () => this.picture?.stiffness ?? 0,
       axis: () => (this.picture && !this.replay ? beamAxis(this.picture.scene.vehicle.payload) : null),
     });
     this.camera = new ChaseCamera(camera, surface);

@@ -16,7 +16,7 @@ function flight(value: number, max = 9): FlightScene {
 
 test("a flight that begins again leaves what is half written, and other flights have what was chosen", () => {
   const place = document.createElement("aside");
-  const hand = { at: "point", plane: "facing", force: 3, directions: "view" } as const;
+  const hand = { at: "point", plane: "facing", kind: "push", frequency: 4, force: 3, directions: "view" } as const;
   const choices = { theme: "dark", graphicsChoice: "full", setGraphics: nothing, setTheme: nothing } as const;
   const page: PanelPage = { hand, extra: [], send: () => 1, ...choices };
   const panel = new Panel(place, page, document.createElement("div"));

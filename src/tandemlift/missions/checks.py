@@ -47,10 +47,7 @@ GRIP = slice(1, 4)  # of a recorded hand
 
 
 def refusals(m: Mission) -> Iterator[CheckResult]:
-    """Refusals of missions that no pilot can fly; after the first, further checks may fail to compute.
-
-    The order is that in which a mission's first refusal is found.
-    """
+    """Refusals of missions that no pilot can fly, in the order of their search; after one, others may not compute."""
     guidance, step, rotors, s = m.pilot.guidance, m.mission.step, m.actuators.model, m.sensors
     count, walls = len(m.vehicle.quadrotors), bool(m.all_walls)
     yield from time_checks(m.mission)

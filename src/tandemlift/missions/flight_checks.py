@@ -20,7 +20,7 @@ from tandemlift.parts.pilot.loop_checks import loop_checks
 from tandemlift.parts.pilot.push_checks import point_checks, push_checks
 from tandemlift.parts.pilot.sensing_checks import sensing_checks
 from tandemlift.parts.rotors.authority import authority_checks
-from tandemlift.parts.rotors.hover_loads import WindOnParts, loads_of
+from tandemlift.parts.rotors.hover_loads import Loads, WindOnParts, loads_of
 
 
 class FlightCheck(NamedTuple):
@@ -38,7 +38,7 @@ ROTORS = '`actuators.model = "rotors"`'
 CHECKS = (
     FlightCheck(
         "thrust",
-        "weight and the largest load downwards, with pushes and wind",
+        "weight and the largest load downwards, with wind, and with pushes that carry it away",
         "usable part of the rotors' thrust with their faults: `compliance.thrust_fraction`, or 95 % if scheduled",
         "N",
         ROTORS,
@@ -54,7 +54,7 @@ CHECKS = (
     ),
     FlightCheck(
         "tilt",
-        "horizontal force of disturbance, wind with 2 σ of turbulence, and pushes, at the worst time",
+        "horizontal force of disturbance, wind with 2 σ of turbulence, and pushes that carry it away",
         "force that `controller.max_tilt`, and the thrust beside the weight, can provide",
         "N",
         ROTORS,
@@ -62,7 +62,7 @@ CHECKS = (
     ),
     FlightCheck(
         "moment",
-        "moment of disturbance, wind and pushes about each axis",
+        "moment of disturbance, wind, and pushes that turn it away, about each axis",
         "85 % of the rotors' moment in hover at which the first one reaches a limit",
         "N m",
         ROTORS,
@@ -201,14 +201,15 @@ def flight_checks(m: Mission) -> tuple[CheckResult, ...]:
     wind = WindOnParts(m.wind, hover.vehicle, m.initial.euler[2], step)
     by_hand, schedule = m.by_hand, schedule_checks.Schedule(m.phases, m.pushes, m.admittance, m.by_hand, end)
     compliant_yaw = by_hand is not None and by_hand.yaw.model == "compliant"
-    loads = loads_of(m.disturbance, wind, m.pushes, end, yielding_yaw=compliant_yaw)
-    usable = None if by_hand is None else by_hand.thrust_fraction
+    each = loads_of(m.disturbance, wind, m.pushes, end, yielding_yaw=compliant_yaw)
+    usable, longest = (None, end) if by_hand is None else (by_hand.thrust_fraction, by_hand.following.time)
     lifting = m.supervision.checks.thrust_fraction if m.supervision.model == "on" else None
-    promised, landed = promise_of(m.promise, pilot.guidance).rms_promised(pilot.guidance), m.outcome.landed_height
+    promised = (promise := promise_of(m.promise, pilot.guidance)).rms_promised(pilot.guidance)
     lands = m.ground.model == "none" and m.phases.land_start is not None and m.phases.land_start < end
-    offsets = (promised, promised, min(promised, landed) if lands else promised)
+    offsets = (promised, promised, min(promised, m.outcome.landed_height) if lands else promised)
     windy = wind.blows and pilot.push != "truth"  # wind on the payload counts as a push
     joined = windy or m.person.model != "none" or any(change.key.startswith("admittance") for change in m.changes)
+    loads = Loads(each, promise.distance, promise.tilt, promise.heading, longest, hover.response_time)
     checks: dict[str, Iterator[CheckResult]] = {  # each is computed on demand
         "authority checks": authority_checks(hover, loads, usable, tilt_limit_of(controller), lifting),
         "start checks": start_checks(m.initial, hover, controller, step, running=m.phases.rotors == "always"),

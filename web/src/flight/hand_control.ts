@@ -1,5 +1,6 @@
 // The hand that pulls the vehicle, and the requests of the person. As `live.session.hand_control` does it.
 
+import { scale } from "../math/vectors.ts";
 import type { PageMessage, Vector } from "../wire/messages.generated.ts";
 import type { Flight } from "./flight.ts";
 import type { PageManifest } from "./manifest.ts";
@@ -13,6 +14,8 @@ const ZERO: Vector = [0, 0, 0];
 export class HandControl {
   seq = 0;
   private offset: Vector = ZERO; // m, added to targets
+  private moving: Message<"force"> | null = null; // the shake or tap in progress
+  private since = 0; // the step at which it began
   private readonly requests = new Map<string, number>(); // until which step each is held
 
   constructor(
@@ -33,13 +36,17 @@ export class HandControl {
     if (this.holds) this.change({ target: this.moved(target) });
   }
 
-  push({ force, point }: Message<"force">): void {
+  push(message: Message<"force">): void {
+    const { force, point, frequency = 0, duration = 0 } = message;
     const any = force.some((part) => part !== 0);
     if (any) this.checkTouch(point);
-    this.change({ force, ...(any && !this.holds ? { grip: point } : {}) });
+    if (!this.moving || !frequency || this.moving.frequency !== frequency) this.since = this.flight.step;
+    this.moving = any && (frequency || duration) ? message : null;
+    this.change({ force: this.moving ? ZERO : force, ...(any && !this.holds ? { grip: point } : {}) });
   }
 
   release(): void {
+    this.moving = null;
     this.change({ held: [0], force: ZERO });
   }
 
@@ -63,6 +70,17 @@ export class HandControl {
     const over = [...this.requests].filter(([, until]) => this.flight.step >= until).map(([what]) => what);
     for (const what of over) this.requests.delete(what);
     if (over.length) this.change(Object.fromEntries(over.map((what) => [what, [0]])));
+    if (this.moving) this.goOn(this.moving);
+  }
+
+  private goOn({ force, frequency = 0, duration: once = 0 }: Message<"force">): void {
+    const duration = once || 0.5 / frequency;
+    const pulses = ((this.flight.step - this.since + 0.5) * this.module.manifest.dt) / duration;
+    const n = Math.floor(pulses);
+    if (once && n > 0) this.moving = null;
+    const { lag } = this.page.tables["person"] as { lag: number };
+    const now = this.moving ? pulse(pulses - n, lag / duration) : 0;
+    this.change({ force: scale(force, n % 2 === 0 ? now : -now) });
   }
 
   get holds(): boolean {
@@ -70,7 +88,7 @@ export class HandControl {
   }
 
   get pushes(): boolean {
-    return this.part("force").some((value) => value !== 0);
+    return this.moving !== null || this.part("force").some((value) => value !== 0);
   }
 
   /** A part of the hand's numbers. */
@@ -106,6 +124,12 @@ export class HandControl {
     for (const [name, values] of Object.entries(parts)) hand.set(values, this.page.hand[name][0]);
     this.flight.hold(hand);
   }
+}
+
+/** What the hand's low-pass turns into a pulse; `lag`: in durations of it. */
+function pulse(s: number, lag: number): number {
+  const [r, slope] = [s * (1 - s), 1 - 2 * s];
+  return 16 * r * r + 64 * lag * r * slope + 32 * lag * lag * (slope * slope - 2 * r);
 }
 
 function vector(values: Float64Array): Vector {

@@ -24,6 +24,10 @@ const KEYS: Record<string, Vector> = {
 const DEAD_ZONE = 0.15; // of a stick's travel
 const STILL = 0.02; // N: a smaller change is not sent
 const ASK_AGAIN = 200; // ms after a refusal
+export const TAP = 0.05; // s
+
+/** Of a message of a force: how it swings. */
+export const shaken = ({ kind, frequency }: HandOptions): { frequency?: number } => (kind === "shake" ? { frequency } : {});
 
 export class ForceInput {
   private readonly pressed = new Set<string>();
@@ -51,7 +55,7 @@ export class ForceInput {
     const ended = size(force) === 0 && size(this.sent) > 0;
     if (!ended && (size(subtract(force, this.sent)) < STILL || performance.now() < this.askAgain)) return;
     this.sent = force;
-    this.send({ type: "force", force, point: [0, 0, 0] }, this.stamp || performance.now());
+    this.send({ type: "force", force, point: [0, 0, 0], ...shaken(this.options) }, this.stamp || performance.now());
     this.stamp = 0;
   }
 
@@ -84,6 +88,11 @@ export class ForceInput {
     if (event.key === "Meta") this.pressed.clear(); // while it is down, the browser reports no key that goes up
     if (!(event.code in KEYS) || event.ctrlKey || event.metaKey || event.altKey || typing(event)) return;
     event.preventDefault();
+    if (this.options.kind === "tap") {
+      const force = this.inWorld(scale(KEYS[event.code], this.options.force));
+      if (!event.repeat) this.send({ type: "force", force, point: [0, 0, 0], duration: TAP }, event.timeStamp);
+      return;
+    }
     this.stamp ||= event.timeStamp;
     this.pressed.add(event.code);
   };

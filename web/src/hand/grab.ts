@@ -10,6 +10,7 @@ import {
   meetPlane,
   nearestToRay,
   type Ray,
+  scale,
   size,
   subtract,
   toBody,
@@ -19,6 +20,7 @@ import type { HandView } from "../view/picture.ts";
 import type { Axis } from "../view/vehicle.ts";
 import type { Frame } from "../wire/frames.ts";
 import type { PageMessage, Vector } from "../wire/messages.generated.ts";
+import { shaken, TAP } from "./force_input.ts";
 import type { HandOptions } from "./options.ts";
 
 const MARGIN = 0.07; // m around the beam within which it can be held
@@ -36,7 +38,8 @@ interface Held {
   depth: number; // of the plane from the eye [m], if it faces the eye
   height: number | null; // of the plane [m], if it is level
   target: Vector;
-  seq: number; // of the message that began it
+  seq: number; // of the message that began it; a shake begins none, and no status ends it
+  shakenFrom: Vector | null; // world: the first target, if the spring's force from there on is the peak of a shake
 }
 
 /** What a grab needs of the page. */
@@ -45,6 +48,7 @@ export interface GrabContext {
   surface: HTMLElement;
   frame(): Frame | null;
   axis(): Axis | null;
+  stiffness(): number; // of the spring [N/m]
   readonly options: HandOptions;
   send(message: PageMessage, since: number): number | null;
 }
@@ -85,11 +89,14 @@ export class Grab {
   /** Sends at most one move, to where the cursor is as the camera stands now. */
   flush(): void {
     if (!this.held) return;
-    const target = this.targetOf(this.held);
-    if (!target || size(subtract(target, this.held.target)) < STILL) return;
-    this.held.target = target;
+    const { held } = this;
+    const target = this.targetOf(held);
+    if (!target || size(subtract(target, held.target)) < STILL) return;
+    held.target = target;
     this.sent = performance.now();
-    this.page.send({ type: "move", target }, this.stamp || this.sent);
+    const force = held.shakenFrom && scale(subtract(target, held.shakenFrom), this.page.stiffness());
+    const shake = force && ({ type: "force", force, point: held.point, ...shaken(this.page.options) } as const);
+    this.page.send(shake ?? { type: "move", target }, this.stamp || this.sent);
     this.stamp = 0;
   }
 
@@ -122,7 +129,6 @@ export class Grab {
     event.stopImmediatePropagation();
     event.preventDefault();
     (document.activeElement as HTMLElement | null)?.blur();
-    this.page.surface.setPointerCapture(event.pointerId);
     this.begin(event, place);
   };
 
@@ -136,8 +142,16 @@ export class Grab {
     const height = this.page.options.plane === "level" ? world[2] : null;
     const hit = this.hit(depth, height) ?? world;
     const target = add(frame.vector("position"), toWorld(frame.attitude, point));
-    const seq = this.page.send({ type: "grab", point, target, at: centre ? "centre" : "point" }, event.timeStamp) ?? 0;
-    this.held = { pointer: event.pointerId, point, offset: subtract(target, hit), depth, height, target, seq };
+    const { kind, force } = this.page.options;
+    if (kind === "tap") {
+      const away = scale(this.ray().direction, force);
+      this.page.send({ type: "force", force: away, point, duration: TAP }, event.timeStamp);
+      return;
+    }
+    const grab = { type: "grab", point, target, at: centre ? "centre" : "point" } as const;
+    const seq = kind === "shake" ? Infinity : (this.page.send(grab, event.timeStamp) ?? 0);
+    this.page.surface.setPointerCapture(event.pointerId);
+    this.held = { pointer: event.pointerId, point, offset: subtract(target, hit), depth, height, target, seq, shakenFrom: kind === "shake" ? target : null };
     this.page.surface.classList.add("pulling");
   }
 

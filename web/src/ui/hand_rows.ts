@@ -34,10 +34,26 @@ export function handRows(options: HandOptions): HandRows {
   const rows = [
     row("Pull", pull),
     row("Plane", planes),
-    row("Key force", el("label", { class: "newtons", for: "key-force" }, input, "N")),
+    row("Key, tap force", el("label", { class: "newtons", for: "key-force" }, input, "N")),
     row("Keys push", directions),
   ];
   return { rows, force, planes };
+}
+
+/** Over the picture: what a drag or a key does, and the frequency of a shake. */
+export function handKinds(options: HandOptions): HTMLElement[] {
+  const range = el("input", { type: "range", min: 0.5, max: 10, step: 0.5, value: options.frequency, title: "Frequency of the shake" });
+  const shown = el("output", {}, `${options.frequency} Hz`);
+  const slider = el("label", { class: "newtons", hidden: true }, range, shown);
+  range.addEventListener("input", () => {
+    options.frequency = range.valueAsNumber;
+    shown.textContent = `${options.frequency} Hz`;
+  });
+  const kinds = choice("What a drag of the beam and a key do", { push: "Push", shake: "Shake", tap: "Tap" }, options.kind, (kind) => {
+    options.kind = kind;
+    slider.hidden = kind !== "shake";
+  });
+  return [kinds, slider];
 }
 
 function forceInput(options: HandOptions): { input: HTMLInputElement; force: LimitedForce } {

@@ -12,6 +12,7 @@ const FINGERS: Line[] = [
   ["Drag the beam with a finger", "pull it"],
   ["Second finger up or down, meanwhile", "push away or pull near; with a level plane, up or down"],
 ];
+const KINDS: Line = ["Push, Shake, Tap", "pull; shake with the force of the drag as its peak; a push of 50 ms away from you"];
 const MOUSE_VIEW: Line = ["Drag elsewhere \u00b7 wheel \u00b7 right button", "turn the view \u00b7 zoom \u00b7 shift"];
 const FINGERS_VIEW: Line = ["Drag elsewhere \u00b7 two fingers", "turn the view \u00b7 zoom and shift"];
 const MOUSE_PLOTS: Line = [
@@ -28,7 +29,7 @@ const KEYS: Line[] = [
   ["E, Q or Page Up, Page Down", "push up, down"],
   ["Gamepad", "left stick: level; right stick: up and down"],
   ["R \u00b7 Ctrl+Z", "fly again to the chosen moment, and try again from there \u00b7 undo a setting"],
-  ["L \u00b7 K \u00b7 P", "lift \u00b7 land \u00b7 pause"],
+  ["5 6 7 \u00b7 L \u00b7 K \u00b7 P", "push, shake, tap \u00b7 lift \u00b7 land \u00b7 pause"],
 ];
 const LECTURE_KEY: Line = ["T", "lecture: full screen, large type, one quantity, the steps of a script"];
 const REPLAY_KEYS: Line[] = [
@@ -52,7 +53,7 @@ const LEGEND: [string, string, string][] = [
 export function helpLines(replay: boolean, touch: boolean): Line[] {
   const pull = touch ? FINGERS : MOUSE;
   const look = touch ? [FINGERS_VIEW, FINGERS_PLOTS] : [MOUSE_VIEW, MOUSE_PLOTS];
-  const own = replay ? look : [...pull, ...look];
+  const own = replay ? look : [...pull, ...look, KINDS];
   if (touch) return replay ? own : [...own, FINGERS_REWIND];
   return [...own, ...(replay ? REPLAY_KEYS : KEYS), VIEW_KEYS, LECTURE_KEY];
 }

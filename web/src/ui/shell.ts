@@ -15,6 +15,7 @@ import { Dock } from "./dock.ts";
 import { byId, choice, foldable } from "./dom.ts";
 import { timedName } from "./file_names.ts";
 import { helpDialog } from "./help.ts";
+import { handKinds } from "./hand_rows.ts";
 import { EndedCard } from "./ended_card.ts";
 import { Findings } from "./findings.ts";
 import { hintOf } from "./hint.ts";
@@ -137,6 +138,7 @@ export class Shell {
 
   frame(frame: Frame): void {
     this.laboratory.frame(frame);
+    this.bar.frame(frame);
     this.challenge.frame(frame);
     this.lecture.frame(frame);
     if (frame.scalar("held") > 0) this.pulled = true;
@@ -241,7 +243,7 @@ export class Shell {
   private makeViews(): void {
     const { page } = this;
     const views = choice("View", VIEWS, "behind", (view) => page.look(view));
-    byId("views").replaceChildren(views, this.show.button);
+    byId("views").replaceChildren(views, this.show.button, ...(page.replay ? [] : handKinds(page.hand)));
     byId("show").append(this.lecture.button);
   }
 

@@ -64,6 +64,7 @@ export const STEP_WORDS = {
 
 /** Bounds of numbers that the page sends. */
 export const LIMITS = {
+  force: { frequency: { min: 0, max: 10 }, duration: { min: 0, max: 1 } },
   kill: { rotor: { min: 0, max: 255 } },
   speed: { factor: { min: 0.1, max: 1 } },
   rewind: { time: { min: 0, max: 100000 } },
@@ -204,6 +205,7 @@ export interface FlightScene {
   parameters: SceneParameter[]; // what may be changed in flight
   missions?: SceneMission[]; // that a page may `fly`
   replay?: SceneReplay; // span of a saved flight
+  authority?: readonly number[]; // of rotors in hover: across, up, down, N; about each axis, N m
 }
 
 /** Why a request would be refused right now, and what to do; each a sentence or two, empty if it would not. */
@@ -318,11 +320,13 @@ export interface ReleaseMessage {
   type: "release";
 }
 
-/** Push with a force, as a keyboard or a gamepad does; a force of zero lets go. */
+/** Push with a force, as a keyboard or a gamepad does, shake or tap with it; a force of zero lets go. */
 export interface ForceMessage {
   type: "force";
   force: Vector; // N, world axes
   point: Vector; // where it acts; m, body axes
+  frequency?: number; // Hz, of a shake with this force as its peak; else 0
+  duration?: number; // s, of a tap with this force; else 0
 }
 
 /** Change a parameter. */

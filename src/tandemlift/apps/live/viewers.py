@@ -258,7 +258,7 @@ class Viewers:
         elif isinstance(message, page.GrabMessage):
             self.holder, self.pulls = viewer, True
         elif isinstance(message, page.ForceMessage):
-            self.pushes = any(message.force)
+            self.pushes = any(message.force) and not message.duration  # a tap ends by itself
             self.holder = viewer if self.pulls or self.pushes else None
 
 

@@ -7,35 +7,37 @@ the vehicle.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
 from tandemlift.core.errors import CLOSE, FAILS, CheckResult, judged, refused, warned
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.hover import CONTROL, HoverFacts
-from tandemlift.parts.rotors.hover_loads import ALWAYS, VehicleLoads
+from tandemlift.parts.rotors.hover_loads import ALWAYS, Loads, VehicleLoads
 
 AXES = ("roll", "pitch", "yaw")
 PUSH, PUSHED = 3.0, 3.5  # N, of a hand that is not gentle with a vehicle of that many kg; it scales with the mass
+TILTED = 0.5  # rad, that a controller without a limit may tilt
 CLOCKED = 0.95  # of the largest thrust that a flight with scheduled guidance may need
 
 
 def authority_checks(
-    hover: HoverFacts, loads: Iterable[VehicleLoads], by_hand: float | None, tilt: float | None, lifting: float | None
+    hover: HoverFacts, loads: Loads, by_hand: float | None, tilt: float | None, lifting: float | None
 ) -> Iterator[CheckResult]:
     """Checks of thrust, tilt and moments of real rotors; none for ideal ones.
 
     Args:
         hover: the vehicle and its rotors.
-        loads: on it, at least one.
+        loads: on it, of which at least one lasts.
         by_hand: `compliance.thrust_fraction` of interactive guidance; None if scheduled.
         tilt: largest tilt of the controller [rad]; None without a limit.
         lifting: `supervision.checks.thrust_fraction` of a supervised flight; None without supervision.
     """
     if hover.actuators.model != "rotors":
         return
-    loads = list(loads)
+    loads = loads._replace(each=list(loads.each))
     thrust = thrust_check(hover, loads, by_hand)
     yield thrust
     if thrust.value is None or thrust.value < hover.faulty_lift:
@@ -51,11 +53,12 @@ def _at(when: str) -> str:
     return "" if when == ALWAYS else f"{when}, "
 
 
-def thrust_check(hover: HoverFacts, loads: Sequence[VehicleLoads], by_hand: float | None) -> CheckResult:
+def thrust_check(hover: HoverFacts, loads: Loads, by_hand: float | None) -> CheckResult:
     """Compare the thrust for the worst vertical load with the usable thrust of all rotors."""
     lift, fraction = hover.faulty_lift, CLOCKED if by_hand is None else by_hand
-    worst = min(loads, key=lambda load: float(load.force[2]))
-    needed, limit = hover.weight - min(float(worst.force[2]), 0.0), fraction * lift
+    limit, needs = fraction * lift, lambda load: hover.weight - min(float(load.force[2]), 0.0)
+    worst = loads.worst(lambda load: needs(load) - limit, hover.mass, loads.distance)
+    needed = needs(worst)
     names = f"{fraction:g}" if by_hand is None else f"compliance.thrust_fraction = {fraction:g}"
     then = "the vehicle cannot fly" if needed > lift else "too little is left to follow pushes and to control"
     text = (
@@ -75,7 +78,7 @@ def supervised_check(vehicle: Vehicle, fraction: float) -> CheckResult:
     return judged("supervised lift", vehicle.weight, limit, "N", text)
 
 
-def tilt_check(hover: HoverFacts, loads: Sequence[VehicleLoads], tilt: float | None) -> CheckResult:
+def tilt_check(hover: HoverFacts, loads: Loads, tilt: float | None) -> CheckResult:
     """Compare the horizontal load with the force that tilt [rad] and thrust provide beside the weight."""
     weight, lift = hover.weight, hover.faulty_lift
 
@@ -84,7 +87,9 @@ def tilt_check(hover: HoverFacts, loads: Sequence[VehicleLoads], tilt: float | N
         by_thrust = math.sqrt(max(lift**2 - up**2, 0.0))
         return by_thrust if tilt is None else min(by_thrust, up * math.tan(tilt))
 
-    worst = max(loads, key=lambda load: load.across - limit_of(load))
+    turns = np.sqrt((tilt or TILTED) * np.diag(hover.vehicle.inertia)[:2] / hover.authority[:2])  # s, to half the tilt
+    loads = loads._replace(lag=loads.lag + float(turns.mean()))
+    worst = loads.worst(lambda load: load.across - limit_of(load), hover.mass, loads.distance)
     limit = limit_of(worst)
     key = "the rotors' thrust" if tilt is None else f"controller.max_tilt = {tilt:g}"
     change = "lower the load" if tilt is None else "lower the load, or raise controller.max_tilt"
@@ -95,12 +100,14 @@ def tilt_check(hover: HoverFacts, loads: Sequence[VehicleLoads], tilt: float | N
     return judged("tilt", worst.across, limit, "N", text, subject=worst.when)
 
 
-def moment_checks(hover: HoverFacts, loads: Sequence[VehicleLoads]) -> Iterator[CheckResult]:
+def moment_checks(hover: HoverFacts, loads: Loads) -> Iterator[CheckResult]:
     """Compare the moment of all loads about each axis with that which the rotors have left in hover."""
     authority, usable = hover.authority, hover.usable_authority
     for i, axis in enumerate(AXES):
-        worst = max(loads, key=lambda load: float(load.about[i]))
-        value, limit = float(worst.about[i]), float(usable[i])
+        limit, angle = float(usable[i]), loads.heading if axis == "yaw" else loads.tilt
+        beyond = partial(lambda load, i, limit: float(load.about[i]) - limit, i=i, limit=limit)
+        worst = loads.worst(beyond, float(hover.vehicle.inertia[i, i]), angle)
+        value = float(worst.about[i])
         text = (
             f"{_at(worst.when)}wind, disturbance and pushes exert a {axis} moment of {value:.3g} N m, and by "
             f"allocation.weights the rotors give {authority[i]:.3g} N m in hover, of which {limit:.3g} N m leaves "

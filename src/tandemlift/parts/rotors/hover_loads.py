@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Iterator, Sequence
-from functools import cached_property
-from typing import NamedTuple
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import cached_property, partial
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -23,8 +23,13 @@ from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable
 from tandemlift.parts.mechanics.wind import WindTable, gust_velocity, gusts_from, quadratic_drag
 
 SIGMAS = 2.0  # standard deviations of turbulence
+SPAN, SPANS = 4.0, 81  # σ of a push before and after its peak, and times within
+STANDS = 5.0  # s after a push, by which a vehicle that was not carried away stands again
 ALWAYS = "always"  # when loads act that neither pushes nor gusts make
 SLOWEST = 1e-3  # m/s, of the wind about which drag is linearised
+
+
+Course: TypeAlias = "Sequence[tuple[float, VehicleLoads]]"
 
 
 class VehicleLoads(NamedTuple):
@@ -36,6 +41,7 @@ class VehicleLoads(NamedTuple):
         moment: [N m, body axes] (3).
         gusting: standard deviation of the wind's force [N, world axes] (3).
         gusting_moment: standard deviation of its moment [N m, body axes] (3).
+        course: durations [s] and loads, one after the other, around a push; empty for loads that last.
     """
 
     when: str
@@ -43,6 +49,7 @@ class VehicleLoads(NamedTuple):
     moment: Array
     gusting: Array
     gusting_moment: Array
+    course: Callable[[], Course] = tuple
 
     @property
     def across(self) -> float:
@@ -53,6 +60,38 @@ class VehicleLoads(NamedTuple):
     def about(self) -> Array:
         """The moments [N m] about the body axes, with turbulence (3)."""
         return np.abs(self.moment) + SIGMAS * self.gusting_moment
+
+
+class Loads(NamedTuple):
+    """The loads of a flight, and what those beyond the rotors may do that yet pass without a finding.
+
+    They carry the vehicle by a `distance` [m], turn it by `tilt` and `heading` [rad], last for a `time` [s]; `lag` [s]:
+    until the rotors brake the vehicle.
+    """
+
+    each: Iterable[VehicleLoads]
+    distance: float
+    tilt: float
+    heading: float
+    time: float
+    lag: float
+
+    def worst(self, excess: Callable[[VehicleLoads], float], inertia: float, way: float) -> VehicleLoads:
+        """The load with the largest excess beyond the rotors [N or N m], of those that do not pass within a way."""
+        return max((x for x in self.each if excess(x) <= 0.0 or not self.pass_by(x, excess, inertia, way)), key=excess)
+
+    def pass_by(self, x: VehicleLoads, excess: Callable[[VehicleLoads], float], inertia: float, way: float) -> bool:
+        """Whether a load passes: it makes the vehicle faster by ∫ excess/inertia dt, what is left brakes it."""
+        lasting = speed = fastest = gone = 0.0
+        for duration, load in (course := x.course()):
+            a = excess(load) / inertia
+            moving = min(duration, -speed / a) if a < 0.0 else duration
+            gone, speed = gone + (speed + 0.5 * a * moving) * moving, max(speed + a * duration, 0.0)
+            fastest, lasting = max(fastest, speed), lasting + duration if a > 0.0 else 0.0
+            if lasting > self.time or gone + fastest * self.lag > way:
+                return False
+            fastest, gone = (fastest, gone) if speed > 0.0 else (0.0, 0.0)
+        return len(course) > 0
 
 
 class AirPart(NamedTuple):
@@ -151,18 +190,30 @@ def loads_of(
     """
     steady, unknown, hand = np.array(disturbance.force), np.array(disturbance.moment), _pushes(pushes, wind.R)
     gusts = [(f"in wind.gusts.{i}", g.start + g.rise + 0.5 * (g.hold or 0.0)) for i, g in enumerate(wind.wind.gusts)]
+    courses = {f"in pushes.{i}": partial(_course, p, pushes) for i, p in enumerate(pushes)}
     times: list[tuple[str, float | None]] = [
         (ALWAYS, None),
-        *[(f"in pushes.{i}", p.time) for i, p in enumerate(pushes)],
+        *zip(courses, [p.time for p in pushes], strict=True),
     ]
-    for when, t in [*times, *(gusts if wind.blows else [])]:
-        if t is not None and not 0.0 <= t <= end:
-            continue
-        force, moment, gusting, turning = wind.at(t)
-        pushed, turned = hand(t)
+
+    def loads_at(when: str, wind: tuple[Array, Array, Array, Array], t: float | None) -> VehicleLoads:
+        (force, moment, gusting, turning), (pushed, turned) = wind, hand(t)
         if yielding_yaw:
             turned[2] = 0.0
-        yield VehicleLoads(when, force + steady + pushed, moment + unknown + turned, gusting, turning)
+        return VehicleLoads(when, force + steady + pushed, moment + unknown + turned, gusting, turning)
+
+    for when, t in [*times, *(gusts if wind.blows else [])]:
+        if t is None or 0.0 <= t <= end:
+            at = partial(loads_at, when, wind.at(t))
+            yield at(t)._replace(course=partial(courses[when], at) if when in courses else tuple)
+
+
+def _course(push: PushTable, pushes: Sequence[PushTable], at: Callable[[float], VehicleLoads]) -> Course:
+    """Durations [s] and loads around a push, short where any push changes, until the vehicle stands."""
+    first, last = push.time - SPAN * push.sigma, push.time + SPAN * push.sigma + STANDS
+    times = np.append([p.time + p.sigma * np.linspace(-SPAN, SPAN, SPANS) for p in pushes], last)
+    times = np.unique(np.clip(times, first, last))
+    return [(b - a, at(0.5 * (a + b))) for a, b in itertools.pairwise(times.tolist())]
 
 
 def _pushes(pushes: Sequence[PushTable], R: Array) -> Callable[[float | None], tuple[Array, Array]]:

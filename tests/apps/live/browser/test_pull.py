@@ -132,3 +132,30 @@ def test_two_pages_take_turns(page, live, browser):
     theirs.get_by_role("button", name="Give it back").click()
     until(lambda: "Nobody has the hand." in mine.inner_text(), "nobody's turn")
     other.context.close()
+
+
+def test_a_hand_that_shakes_pushes_to_and_fro_and_lets_go(page, live):
+    live.wait(rests, "rest")
+    page.get_by_role("button", name="Shake").click()
+    x, y = middle_of_the_beam(page)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 60, y, steps=5)
+    pushed = live.wait(lambda seen: np.linalg.norm(seen["push"]) > 0.3, "a push")["push"]
+    live.wait(lambda seen: seen["push"] @ pushed < -0.1, "a push the other way")
+    live.wait(lambda seen: seen["push"] @ pushed > 0.1, "a push to and fro")
+    live.wait_status(lambda status: status["holder"] == "other", "the holder told")
+    page.mouse.up()
+    live.wait_status(lambda status: status["holder"] == "none", "release")
+    live.wait(rests, "rest")
+    page.get_by_role("button", name="Push", exact=True).click()
+
+
+def test_a_tap_pushes_away_from_who_looks_and_holds_nothing(page, live):
+    live.wait(rests, "rest")
+    page.get_by_role("button", name="Tap").click()
+    here = live.look()["position"]
+    page.mouse.click(*middle_of_the_beam(page))
+    live.wait(lambda seen: np.linalg.norm(seen["position"] - here) > 0.002, "a beam that moved")
+    assert live.status["holder"] == "none"
+    live.wait(rests, "rest")

@@ -47,6 +47,35 @@ def test_a_recording_made_by_a_real_mouse_flies_again_in_python_to_the_last_bit(
     assert [(c.key, c.value) for c in changes] == [("person.stiffness", 9.0)]
 
 
+def test_a_shake_and_a_tap_are_recorded_step_by_step_and_fly_again_to_the_last_bit(browser, address, tmp_path):
+    page = opened(browser, address)
+    until(lambda: seconds_flown(page) > 6.0, "a flight at its height")
+    page.keyboard.press("6")
+    page.get_by_role("slider").first.fill("2.5")
+    x, y = middle_of_the_beam(page)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 60.0, y, steps=5)
+    flown_on(page, 1.0)
+    page.mouse.up()
+    flown_on(page, 1.0)
+    page.keyboard.press("7")
+    page.keyboard.press("w")
+    flown_on(page, 0.5)
+    save(page, tmp_path)
+    assert page.wrong == []
+    page.close()
+    check_flies_again(tmp_path / "recorded.toml", np.load(tmp_path / "last_sample.npy"))
+    flight = tl.fly(tl.load_mission(tmp_path / "recorded.toml"))
+    push, time = np.linalg.norm(flight["push_force"], axis=1), flight.time
+    strong = np.flatnonzero(push > 0.1)
+    shake, tap = np.split(strong, np.flatnonzero(np.diff(time[strong]) > 0.5) + 1)
+    along = flight["push_force"][shake] @ flight["push_force"][shake[0]]
+    assert np.count_nonzero(np.diff(np.sign(along))) >= 4  # in 1 s of 2.5 Hz
+    assert push[tap].max() == pytest.approx(3.0, abs=0.1)  # N, of the key
+    assert 0.02 < time[tap[-1]] - time[tap[0]] < 0.06  # s
+
+
 def test_an_own_mission_with_an_own_controller_flies_from_the_file_that_the_command_wrote(browser, tmp_path):
     mission, controller = tmp_path / "mine.toml", ROOT / "docs" / "reference" / "listings" / "my_pd.py"
     mission.write_text('extends = "hover"\n[mission]\nname = "mine"\n[vehicle.payload]\nmass = 0.7\n', "utf-8")

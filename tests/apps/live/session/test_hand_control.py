@@ -60,6 +60,45 @@ def test_a_key_pushes_with_its_force_and_stops_when_it_is_let_go(session):
     assert np.abs(seen(session)["push"]).max() < 1e-4
 
 
+def pulses_felt(session, seconds):
+    """The true push along x after each step [N]."""
+    felt = []
+    for _ in range(round(seconds / session.flight.dt)):
+        fly(session, session.flight.dt)
+        felt.append(seen(session)["push"][0])
+    return np.array(felt)
+
+
+def test_a_tap_is_one_pulse_of_its_force_and_duration_behind_the_low_pass_of_the_hand(session):
+    up(session)
+    say(session, "force", force=(3.0, 0.0, 0.0), point=(0.0, 0.0, 0.0), duration=0.05)
+    felt, dt = pulses_felt(session, 0.3), session.flight.dt
+    s = np.clip((np.arange(len(felt)) + 1.0) * dt / 0.05, 0.0, 1.0)
+    assert felt == pytest.approx(3.0 * 16.0 * (s * (1.0 - s)) ** 2, abs=0.05)
+    assert felt.sum() * dt == pytest.approx(3.0 * 0.05 * 16.0 / 30.0, rel=0.04)  # N s; the hand moves by steps
+    assert np.abs(felt[-20:]).max() < 0.02
+
+
+@pytest.mark.parametrize("frequency", [0.5, 4.0, 10.0])
+def test_a_shake_swings_with_its_force_and_frequency_until_it_is_let_go(session, frequency):
+    up(session)
+    say(session, "force", force=(2.0, 0.0, 0.0), point=(0.0, 0.0, 0.0), frequency=frequency)
+    felt, dt = pulses_felt(session, 4.0), session.flight.dt
+    half = (np.arange(len(felt)) + 1.0) * dt * 2.0 * frequency
+    n, s = np.divmod(half, 1.0)
+    assert felt == pytest.approx(np.where(n % 2 == 0, 32.0, -32.0) * (s * (1.0 - s)) ** 2, abs=0.06)
+    say(session, "release")
+    assert np.abs(pulses_felt(session, 2.0)[-50:]).max() < 1e-3
+
+
+def test_a_shake_that_is_pulled_harder_goes_on_in_its_phase(session):
+    up(session)
+    for force in (1.0, 1.0, 2.0):
+        say(session, "force", force=(force, 0.0, 0.0), point=(0.0, 0.0, 0.0), frequency=1.0)
+        felt = pulses_felt(session, 0.25)  # the second ends with the first half of a period, the third with its peak
+    assert felt[-1] == pytest.approx(-2.0, abs=0.1)
+
+
 def test_it_lands_and_lifts_again_when_it_is_asked_to_and_stops_at_once(session):
     at = up(session)
     say(session, "ask", what="land")

@@ -20,6 +20,15 @@ def grip_offset(attitude: Quat, point: Vec3) -> Vec3:
     return -apply(rotation_from_quaternion(attitude), point)
 
 
+def pulse(s: float, lag: float) -> float:
+    """What the hand's low-pass turns into the pulse p = 16 s² (1 − s)², 0 ≤ s ≤ 1: p + 2 lag p' + lag² p''.
+
+    `lag`: each of its two time constants, in durations of the pulse.
+    """
+    r, slope = s * (1.0 - s), 1.0 - 2.0 * s
+    return 16.0 * r * r + 64.0 * lag * r * slope + 32.0 * lag * lag * (slope * slope - 2.0 * r)
+
+
 def hands_off(flight: RecordedFlight) -> None:
     """Let go on a flight that takes the place of another: no hand holds there, and no request is made."""
     flight.hold(flight.hand._replace(held=0.0, force=ZERO, lift=0.0, land=0.0))
@@ -40,6 +49,8 @@ class HandControl:
         self._flight, self._vehicle, self.seq = flight, vehicle, 0
         self._offset = ZERO  # m, added to targets
         self._requests: dict[str, int] = {}  # last step of each
+        self._moving: page.ForceMessage | None = None  # the shake or tap in progress
+        self._since = 0  # the step at which it began
 
     def take(self, m: page.BeamMessage, attitude: Callable[[], Quat]) -> None:
         """Grab, move, push or release, as a message says; `attitude`: of the vehicle, if it is needed.
@@ -70,10 +81,14 @@ class HandControl:
         if any(m.force):
             check_touch(self._flight, self._vehicle, m.point)
         grip = {"grip": Vec3(*m.point)} if any(m.force) and not self._flight.hand.held else {}
-        self._change(force=Vec3(*m.force), **grip)
+        if not (self._moving and m.frequency and self._moving.frequency == m.frequency):
+            self._since = self._flight.step
+        self._moving = m if any(m.force) and (m.frequency or m.duration) else None
+        self._change(force=ZERO if self._moving else Vec3(*m.force), **grip)
 
     def release(self) -> None:
         """Let go of the beam, and push no more."""
+        self._moving = None
         self._change(held=0.0, force=ZERO)
 
     def request(self, m: page.AskMessage) -> None:
@@ -86,13 +101,24 @@ class HandControl:
         """Let the pilot follow pushes, or not."""
         self._change(enabled=float(on))
 
+    def _go_on(self, m: page.ForceMessage) -> None:
+        """The force of a tap, one pulse, or of a shake, pulses to and fro, in the middle of the next step."""
+        duration = m.duration or 0.5 / m.frequency
+        n, s = divmod((self._flight.step - self._since + 0.5) * self._flight.dt / duration, 1.0)
+        if m.duration and n > 0.0:
+            self._moving = None
+        now = pulse(s, self._flight.start.person.lag / duration) if self._moving else 0.0
+        self._change(force=Vec3(*m.force) * (now if n % 2.0 == 0.0 else -now))
+
     def expire_requests(self) -> None:
-        """Withdraw the requests that have been held for long enough; before every step."""
+        """Withdraw the requests that have been held for long enough, go on with a shake or tap; before every step."""
         over = [what for what, until in self._requests.items() if self._flight.step >= until]
         for what in over:
             del self._requests[what]
         if over:
             self._change(**dict.fromkeys(over, 0.0))
+        if self._moving:
+            self._go_on(self._moving)
 
     def _change(self, **changes: Any) -> None:
         self._flight.hold(self._flight.hand._replace(**changes))

@@ -101,11 +101,13 @@ class ReleaseMessage(NumberedMessage):
 
 
 class ForceMessage(NumberedMessage):
-    """Push with a force, as a keyboard or a gamepad does; a force of zero lets go."""
+    """Push with a force, as a keyboard or a gamepad does, shake or tap with it; a force of zero lets go."""
 
     type: Literal["force"] = "force"
     force: WorldForce
     point: Annotated[BodyPoint, "where it acts"]
+    frequency: Annotated[float, Field(ge=0.0, le=10.0), "Hz, of a shake with this force as its peak; else 0"] = 0.0
+    duration: Annotated[float, Field(ge=0.0, le=1.0), "s, of a tap with this force; else 0"] = 0.0
 
 
 class SetMessage(NumberedMessage):

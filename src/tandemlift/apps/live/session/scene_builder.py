@@ -36,7 +36,11 @@ def scene_of(mission: Mission, engine: str) -> server.FlightScene:
     floor = floor_from(mission, vehicle)
     height = _lowest(mission.initial.position[2], vehicle) if isinstance(floor, Absent) else float(floor.height)
     walls = [w.model_dump(mode="json") for w in mission.all_walls]
-    return scene_of_tables(tables_of(mission), walls, vehicle, engine, height)
+    scene, hover = scene_of_tables(tables_of(mission), walls, vehicle, engine, height), mission.hover
+    if hover.actuators.model == "rotors":
+        across = hover.weight * math.tan(getattr(mission.controller, "max_tilt", None) or mission.compliance.max_tilt)
+        scene["authority"] = [across, hover.weight, hover.lift - hover.weight, *hover.authority.tolist()]
+    return scene
 
 
 def scene_of_tables(

@@ -188,6 +188,7 @@ class FlightScene(TypedDict):
     parameters: Annotated[list[SceneParameter], "what may be changed in flight"]
     missions: NotRequired[Annotated[list[SceneMission], "that a page may `fly`"]]
     replay: NotRequired[Annotated[SceneReplay, "span of a saved flight"]]
+    authority: NotRequired[Annotated[list[float], "of rotors in hover: across, up, down, N; about each axis, N m"]]
 
 
 class PreparationStatus(TypedDict):
