@@ -6,6 +6,7 @@ from tandemlift.core.keys import TRIAL, Bandwidth, Delay, Fraction, NonNegative,
 from tandemlift.core.vector import Absent, Vec3, vec3
 from tandemlift.parts.guidance.yaw_compliance import YawTable
 from tandemlift.parts.interaction.admittance import Admittance
+from tandemlift.parts.interaction.alternation import Alternation
 from tandemlift.parts.interaction.compliance import AssumedPayload, Compliance, MotionLimits, PushFilters
 from tandemlift.parts.interaction.energy_tank import TankTable
 from tandemlift.parts.interaction.following import FollowingTable
@@ -62,6 +63,14 @@ class ComplianceTable(Table, acts='pilot.guidance = "interactive"'):
     vertical_reference_lead: Delay | None = key(
         None, "s", "reference_lead along z", unset="that of x and y", example=0.03
     )
+    alternation_share: Fraction | None = key(
+        0.3,
+        "1",
+        "share of the vehicle's least horizontal agility for which a push that alternates may ask; beyond it, less of "
+        "its fast part is followed and compensated",
+        source="chosen: shakes of 4 N from 0.5 to 10 Hz",
+        unset="no limit",
+    )
     mass_feedforward: bool = key(
         False, None, "whether the mass that a tare identifies is accelerated, too, with the reference", source="off"
     )
@@ -90,7 +99,12 @@ def push_filters(c: ComplianceTable, step: float) -> PushFilters:
 
 
 def compliance_from(
-    c: ComplianceTable, push: PushFilters, admittance: Admittance, threshold: Vec3, payload: float
+    c: ComplianceTable,
+    push: PushFilters,
+    admittance: Admittance,
+    threshold: Vec3,
+    payload: float,
+    alternation: Alternation | Absent,
 ) -> Compliance:
     """The compliance around an admittance; pushes below the threshold [N] are ignored. `payload`: assumed mass [kg]."""
     speed = vec3(c.max_speed)
@@ -105,6 +119,7 @@ def compliance_from(
         reference_lead=_lead(c.reference_lead, c.vertical_reference_lead),
         payload=AssumedPayload(payload) if c.mass_feedforward else Absent(),
         policy=start_policy(c.policy, admittance.damping),
+        alternation=alternation,
     )
 
 

@@ -1,6 +1,7 @@
 """Compliance to a person's push: from the measured push to a trajectory that the vehicle can follow.
 
-measured push → low-pass → less its bias → soft dead-band with hysteresis and dwell → low-pass → admittance → limits
+measured push → low-pass → less of what alternates → less its bias → soft dead-band with hysteresis and dwell →
+low-pass → admittance → limits
 
 Per world axis, M a + C v + K (p − p_d) = F with F the push beyond the threshold. Both low-passes are of second order,
 so the rate of the acceleration is known too, and the reference can lead by the response time of the vehicle. Speed,
@@ -25,6 +26,7 @@ from tandemlift.parts.interaction.admittance import (
     anchored,
     soft_threshold,
 )
+from tandemlift.parts.interaction.alternation import Alternation, AlternationState, alternation_step, calmed
 from tandemlift.parts.interaction.policy import Policy, with_policy
 from tandemlift.parts.interaction.requests import ReferenceVelocity
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, V, low_pass_step
@@ -106,11 +108,16 @@ class Compliance(NamedTuple):
     reference_lead: Number | Vec3
     payload: AssumedPayload | Absent
     policy: Policy | Absent
+    alternation: Alternation | Absent
 
 
 class ComplianceState(NamedTuple):
-    """Memory: the push [N] after the first low-pass, the dead-band's, the force [N] after the second; T_r, and T_d."""
+    """Memory: the push [N] after the first low-pass, as it is and as it is followed; the dead-band's; the force [N]
+    after the second low-pass; T_r, and T_d.
+    """
 
+    measured: LowPassState[Vec3]
+    alternation: AlternationState | Absent
     filtered: LowPassState[Vec3]
     band: DeadBandState[Vec3]
     output: LowPassState[Vec3]
@@ -236,7 +243,9 @@ def compliance_step(
         lead: a velocity of the reference in place of the response to the push, or `Absent`.
         eased: the force by which a policy changes the damping [N, world axes], or `Absent`.
     """
-    filtered = low_pass_step(k.input_filter, m.filtered, push)
+    measured = low_pass_step(k.input_filter, m.measured, push)
+    alternation = alternation_step(k.alternation, m.alternation, measured, dt)
+    filtered = calmed(k.alternation, alternation, measured)
     beyond, band = dead_band(k.band, m.band, filtered.value, enabled, dt)
     output = low_pass_step(k.output_filter, m.output, beyond)
     response = limited_response(k, m, with_policy(eased, output.value), damping)
@@ -248,6 +257,8 @@ def compliance_step(
     position = m.position + m.velocity * dt + acceleration * (0.5 * dt * dt)
     velocity = m.velocity + acceleration * dt
     return ComplianceState(
+        measured=measured,
+        alternation=alternation,
         filtered=filtered,
         band=band,
         output=output,
@@ -271,10 +282,12 @@ def compensated_push(k: Compliance, m: ComplianceState) -> Vec3:
     return m.filtered.value + m.filtered.rate * k.force_lead
 
 
-def start_compliance(position: Vec3) -> ComplianceState:
-    """The memory before the first sample, without a push, at a position [m]."""
+def start_compliance(position: Vec3, alternation: AlternationState | Absent) -> ComplianceState:
+    """The memory before the first sample, without a push, at a position [m]; `alternation`: that of the push."""
     no_push = LowPassState(ZERO, ZERO)
     return ComplianceState(
+        measured=no_push,
+        alternation=alternation,
         filtered=no_push,
         band=DeadBandState(active=ZERO, above_time=ZERO, inactive_time=ZERO, mean=ZERO, bias=ZERO),
         output=no_push,

@@ -29,16 +29,17 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.core.errors import CheckResult, judged
+from tandemlift.core.errors import CheckResult, judged, warned
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.parts.controllers.interface import ControllerTable
 from tandemlift.parts.estimation.disturbance_observer import ObserverTable
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.guidance.compliance_table import ComplianceTable
 from tandemlift.parts.guidance.guidance import PilotTable
+from tandemlift.parts.interaction.alternation import CROSSOVER, force_curvature
 from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable
 from tandemlift.parts.pilot.controller_response import INPUTS, controller_response
-from tandemlift.parts.rotors.allocation import AllocationTable
+from tandemlift.parts.rotors.allocation import AllocationTable, hover_moments
 from tandemlift.parts.rotors.hover import HoverFacts
 from tandemlift.parts.sensors.sensors_table import SensorsTable
 
@@ -48,6 +49,7 @@ MIXED = 1e-9  # of a loop, below which axes do not mix
 TURNED = 0.4 * math.pi  # rad, of a loop that is not stable
 CLEAR = 0.25  # tolerance of the slope at low frequencies, from which the number of integrators is found
 NEAR = 0.3  # of the delay that a loop tolerates
+GIVEN_AWAY = 0.1  # of the priority of roll or pitch: that of a thrust which does not keep the weight
 NOTABLE = 0.5  # of the payload's mass, as an error of the measured push
 
 
@@ -75,12 +77,16 @@ class PushFeedback(NamedTuple):
         force_lead: lead time of the force along z [s].
         moment_lead: lead time of the moment [s].
         bandwidth: bandwidth of their low-pass [rad/s].
+        horizontal_lead: lead time of the force along x and y [s].
+        alternation_share: `compliance.alternation_share`.
     """
 
     mass_error: float
     force_lead: float
     moment_lead: float
     bandwidth: float
+    horizontal_lead: float
+    alternation_share: float | None
 
     def compensated(self, s: NDArray[np.complexfloating], lead: float) -> NDArray[np.complexfloating]:
         """The compensated fraction of a push [1] at s [rad/s], with a lead time [s]."""
@@ -108,6 +114,8 @@ class ControlLoop(NamedTuple):
 def loop_checks(loop: ControlLoop) -> Iterator[CheckResult]:
     """Check the delay of each axis with real rotors; no check for ideal ones."""
     hover = loop.hover
+    if loop.push is not None and hover.actuators.model == "rotors":
+        yield from shake_checks(loop.push, hover, compensates=getattr(loop.controller, "human_force_feedforward", True))
     for found in loop_delays(loop):
         value, limit = 1e3 * found.delay, 1e3 * found.bears
         parts = f"actuators.delay = {hover.actuators.delay:g} s, step and readings make {value:.3g} ms"
@@ -131,6 +139,33 @@ def _remedy(push: PushFeedback | None, payload: float) -> str:
     )
 
 
+def shake_checks(push: PushFeedback, hover: HoverFacts, *, compensates: bool) -> Iterator[CheckResult]:
+    """Check for a push that is compensated faster than the attitude follows, and for a weight that is given away.
+
+    Args:
+        push: how it is compensated.
+        hover: the vehicle and its rotors.
+        compensates: whether the controller compensates a push.
+    """
+    asked = abs(push.compensated(np.array(1j * CROSSOVER), push.horizontal_lead))
+    most = force_curvature(hover.vehicle, hover_moments(hover.allocation, hover.vehicle))
+    peak = float(most / (CROSSOVER**2 * asked))  # N, of a sine
+    shake = f"a push of {peak:.2g} N that alternates at {CROSSOVER / (2.0 * math.pi):.2g} Hz asks for all that"
+    share = math.inf if push.alternation_share is None else push.alternation_share * float(asked)
+    if compensates and share > 1.0:
+        given = "not set" if push.alternation_share is None else f"{push.alternation_share:g}"
+        yield warned(
+            f"{shake} roll or pitch can give, and is compensated late, which makes it larger: "
+            f"compliance.alternation_share is {given}; set it to 0.3, or controller.human_force_feedforward to false"
+        )
+    thrust, *moments, _ = hover.allocation.priorities
+    if hover.allocation.method == "constrained" and thrust < GIVEN_AWAY * max(moments):
+        yield warned(
+            f"{shake} the rotors have, and allocation.priorities of {thrust:g} for thrust beside {max(moments):g} for "
+            "roll and pitch lets the vehicle sink for it; raise the first"
+        )
+
+
 def push_feedback(
     pilot: PilotTable, c: ComplianceTable, estimator: EstimatorTable, hover: HoverFacts, disturbance: DisturbanceTable
 ) -> PushFeedback | None:
@@ -145,7 +180,7 @@ def push_feedback(
     unknown = hover.vehicle.payload.mass - hover.payload_mass
     error = -disturbance.force[2] / GRAVITY if estimator.identify_mass else unknown
     lead = c.force_lead if c.vertical_force_lead is None else c.vertical_force_lead
-    return PushFeedback(error, lead, c.moment_lead, c.input_bandwidth)
+    return PushFeedback(error, lead, c.moment_lead, c.input_bandwidth, c.force_lead, c.alternation_share)
 
 
 def loop_delays(loop: ControlLoop) -> Iterator[LoopDelay]:

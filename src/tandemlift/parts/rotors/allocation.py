@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import GetCoreSchemaHandler
 from pydantic_core import core_schema
 
-from tandemlift.core.algebra import clip, maximum, sqrt, where
+from tandemlift.core.algebra import absolute, clip, least, maximum, minimum, sqrt, where
 from tandemlift.core.arrays import array, square_roots
 from tandemlift.core.caching import cached
 from tandemlift.core.keys import Bandwidth, Delay, PerAxis, Positive, Scale, Table, is_number, key, must
@@ -64,10 +64,10 @@ class AllocationTable(
         source="all equal; open in the paper",
     )
     priorities: Priorities = key(
-        (30.0, 900.0, 900.0, 1.0),
+        (900.0, 900.0, 900.0, 1.0),
         "1",
         "for 'constrained': weights of the errors in thrust, roll, pitch and yaw when the rotors cannot give all four",
-        source="chosen: roll and pitch first, then thrust, then yaw",
+        source="chosen: thrust keeps the weight as roll and pitch keep the tilt, then yaw",
     )
     lead: Leads = key(
         (0.0, 0.0, 0.0, 0.0),
@@ -211,6 +211,31 @@ def wrench_of(four: NDArray[np.float64]) -> Wrench:
 def thrust_limits(vehicle: Vehicle) -> PerRotor:
     """The largest thrust of every rotor of a vehicle [N], a set."""
     return set_of([q.thrust_limit for q in vehicle.quadrotors for _ in range(4)])
+
+
+def hover_moments(table: AllocationTable, vehicle: Vehicle) -> tuple[Number, Number]:
+    """The largest roll and pitch moments [N·m], either way, that the pseudo-inverse adds to hover within the limits."""
+    inverse, most = _inverse(vehicle, table.weights), thrust_limits(vehicle)
+    hover = inverse.thrust * vehicle.weight
+    return hover_moment(hover, most, inverse.roll), hover_moment(hover, most, inverse.pitch)
+
+
+@law
+def hover_moment(hover: PerRotor, most: PerRotor, column: PerRotor) -> Number:
+    """The largest moment about an axis [N·m], either way, that an allocation adds to hover; 0 if it cannot hover.
+
+    Args:
+        hover: thrusts of the rotors in hover [N], a set.
+        most: their largest thrusts [N].
+        column: the thrusts for a unit moment [1/m].
+    """
+    return maximum(least(spare_moment(hover, most, column)), 0.0)
+
+
+@elementwise
+def spare_moment(hover: Number, most: Number, column: Number) -> Number:
+    """The moment [N·m] with which a rotor reaches the nearer limit."""
+    return minimum(most - hover, hover) / maximum(absolute(column), 1e-12)
 
 
 @cached

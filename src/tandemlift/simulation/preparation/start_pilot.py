@@ -26,6 +26,7 @@ from tandemlift.parts.guidance.supervision_table import start_supervision
 from tandemlift.parts.guidance.yaw_compliance import start_heading
 from tandemlift.parts.interaction.above_ground import GroundClearance
 from tandemlift.parts.interaction.admittance import AdmittanceState, admittance_from, gate_from
+from tandemlift.parts.interaction.alternation import start_alternation
 from tandemlift.parts.interaction.compliance import start_compliance
 from tandemlift.parts.interaction.energy_tank import start_tank
 from tandemlift.parts.interaction.following import AT_REST, start_following
@@ -37,7 +38,7 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.pilot.excitation import start_excitation
 from tandemlift.parts.pilot.pilot import PilotMemory, PilotParameters
 from tandemlift.parts.pilot.rotor_lead import start_lead
-from tandemlift.parts.rotors.allocation import mixer_of, start_allocation
+from tandemlift.parts.rotors.allocation import hover_moments, mixer_of, start_allocation
 from tandemlift.parts.rotors.detection_table import start_detection
 from tandemlift.parts.rotors.rotor_faults import RotorFaults, known_faults
 from tandemlift.parts.sensors.readings import Readings
@@ -111,11 +112,16 @@ def start_hand_guidance(
     tank, filled = start_tank(c.tank)
     heading, turned = start_heading(c.yaw, push, vehicle, 0.0 if at_rest else mission.initial.euler[2])
     contact, touching = start_contact_hold(mission.contact, mission.estimator.wrench)
+    alternation, calm = start_alternation(
+        c.alternation_share, vehicle, hover_moments(mission.allocation, vehicle), mission.mission.step
+    )
     max_tilt = c.max_tilt if of_controller is None else minimum(c.max_tilt, of_controller)
     guided = HandGuidance(
         phasing=phase_settings(mission.phases, c, mission.requests, mission.estimator.tare_duration),
         compliance=compliance_from(
-            *(c, push, admittance_from(mission.admittance), vec3(mission.admittance.threshold)), vehicle.payload.mass
+            *(c, push, admittance_from(mission.admittance), vec3(mission.admittance.threshold)),
+            vehicle.payload.mass,
+            alternation,
         ),
         tank=tank,
         heading=heading,
@@ -129,7 +135,7 @@ def start_hand_guidance(
     )
     no_push = LowPassState(ZERO, ZERO)
     memory = HandGuidanceState(
-        start_phases(at.z), start_compliance(at), filled, turned, no_push, AT_REST, supervising, touching
+        start_phases(at.z), start_compliance(at, calm), filled, turned, no_push, AT_REST, supervising, touching
     )
     return guided, memory
 

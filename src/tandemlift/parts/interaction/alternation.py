@@ -1,0 +1,107 @@
+"""A hand that shakes: the faster a push alternates, the less of it is followed and compensated.
+
+A push is compensated by tilt, and the admittance multiplies it by the vehicle's mass over the virtual one. A push that
+alternates faster than the attitude can follow would be compensated late, and so add to itself, while it moves the
+vehicle itself by F/(m ω²) only. So its fast part, what a slow low-pass leaves of it, is followed by the share
+T/max(Ḟ, T), with Ḟ twice the smaller mean of its rises and falls [N/s], summed over the axes: the mean of |Ḟ| of a push
+that alternates, and none of a push that only rises, however steeply. Below T nothing is changed, to the last bit.
+
+T is that of a sine at the attitude's crossover, whose second derivative asks for a share of the vehicle's largest
+angular acceleration in hover: (2/π) share L/ω.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from tandemlift.core.algebra import maximum, minimum
+from tandemlift.core.law import elementwise, law
+from tandemlift.core.types import Number, number
+from tandemlift.core.vector import ZERO, Absent, Vec3
+from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
+from tandemlift.parts.mechanics.vehicle import Vehicle
+
+SLOW = 5.0  # rad/s, of the low-pass: a shake of 0.8 Hz is halved
+FORGOTTEN = 0.7  # s, time constant of the means
+CROSSOVER = 14.0  # rad/s, of the attitude loop
+
+
+class Alternation(NamedTuple):
+    """The slow low-pass, the rate of the means [1/s], and T [N/s]."""
+
+    slow: LowPass
+    rate: Number
+    limit: Number
+
+
+class AlternationState(NamedTuple):
+    """Memory: the slow part of a push [N], and the means of its rises and of its falls [N/s]."""
+
+    slow: LowPassState[Vec3]
+    rises: Vec3
+    falls: Vec3
+
+
+@elementwise
+def rise(rate: Number) -> Number:
+    """The rate of a number that rises, else 0."""
+    return maximum(rate, 0.0)
+
+
+@law(absent="memory")
+def alternation_step(
+    k: Alternation, memory: AlternationState, push: LowPassState[Vec3], dt: Number
+) -> AlternationState:
+    """The memory after a step with a push [N]."""
+    part = k.rate * dt
+    return AlternationState(
+        low_pass_step(k.slow, memory.slow, push.value),
+        memory.rises + (rise(push.rate) - memory.rises) * part,
+        memory.falls + (rise(-push.rate) - memory.falls) * part,
+    )
+
+
+@elementwise
+def smaller(a: Number, b: Number) -> Number:
+    """The smaller of two numbers."""
+    return minimum(a, b)
+
+
+@law
+def mean_rate(m: AlternationState) -> Number:
+    """Ḟ [N/s], the mean rate of a push that alternates."""
+    least = smaller(m.rises, m.falls)
+    return 2.0 * (least.x + least.y + least.z)
+
+
+@law(absent="push")
+def calmed(k: Alternation, m: AlternationState, push: LowPassState[Vec3]) -> LowPassState[Vec3]:
+    """The push that is followed and compensated [N]: with less of its fast part where it alternates too fast."""
+    left_out = 1.0 - k.limit / maximum(mean_rate(m), k.limit)
+    value, rate = push.value - m.slow.value, push.rate - m.slow.rate
+    return LowPassState(push.value - value * left_out, push.rate - rate * left_out)
+
+
+def start_alternation(
+    share: float | None, vehicle: Vehicle, moments: tuple[Number, Number], step: float
+) -> tuple[Alternation, AlternationState] | tuple[Absent, Absent]:
+    """The limit of a push that alternates, and its memory; or `Absent` without a limit.
+
+    Args:
+        share: of the largest roll or pitch acceleration in hover, for which a push may ask; None: no limit.
+        vehicle: as the pilot assumes it.
+        moments: the largest roll and pitch moments in hover [N·m].
+        step: sampling time [s].
+    """
+    if share is None:
+        return Absent(), Absent()
+    limit = (2.0 / math.pi / CROSSOVER) * share * force_curvature(vehicle, moments)
+    quiet = AlternationState(LowPassState(ZERO, ZERO), ZERO, ZERO)
+    return Alternation(low_pass(SLOW, step), 1.0 / FORGOTTEN, limit), quiet
+
+
+def force_curvature(vehicle: Vehicle, moments: tuple[Number, Number]) -> Number:
+    """L [N/s²], the largest second derivative of a horizontal force in hover: the weight times angular acceleration."""
+    (roll, pitch), J = moments, vehicle.inertia
+    return vehicle.weight * minimum(roll / number(J[0, 0]), pitch / number(J[1, 1]))
