@@ -22,6 +22,7 @@ from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, format_toml, tables_of
+from tandemlift.missions.outcomes import promise_of
 from tandemlift.parts.mechanics.push import sine_pushes
 from tandemlift.parts.rotors.authority import PUSH, PUSHED
 from tandemlift.simulation.fly import fly_many
@@ -47,9 +48,10 @@ class Shake(NamedTuple):
 
 
 class Answer(NamedTuple):
-    """How far a shaken vehicle sinks [m] and turns [deg], and its findings and failure beyond those of the hand."""
+    """How far a shaken vehicle sinks, strays [m] and turns [deg], and its findings and failure beyond the hand's."""
 
     sinks: float
+    strays: float
     turns: float
     beyond: frozenset[str]
 
@@ -60,21 +62,25 @@ class Answer(NamedTuple):
 
 
 def shaken_hands(mission: Mission) -> list[Shake]:
-    """Shakes without a peak: in the payload's middle and near its ends, along each axis, with all `FREQUENCIES`."""
+    """Shakes without a peak: in the payload's middle and near its ends, along each axis, with all `FREQUENCIES`.
+
+    One end stands for both if the centre of mass is in the middle.
+    """
     vehicle = mission.hover.vehicle
     end = 0.5 * NEAR_END * (vehicle.payload.span or 2.0 * float(np.abs(vehicle.lever_arms[:, 1]).max()))
     x, y, z = vehicle.origin.tolist()
-    places = (("middle", (x, y, z)), ("+y end", (x, y + end, z)), ("-y end", (x, y - end, z)))
+    places = [("middle", (x, y, z)), ("+y end", (x, y + end, z)), ("-y end", (x, y - end, z))][: 2 if abs(y) < 1e-6 else 3]
     return [Shake(0.0, f, axis, name, point) for name, point in places for axis in range(3) for f in FREQUENCIES]
 
 
 def answer_of(flight: Flight, since: float) -> Answer:
     """The answer of a flight to a shake from a time [s] on."""
     on, kinds = flight.time >= since, {f.kind for f in flight.findings if f.time >= since}
-    sunk = (flight["reference_position"] - flight["position"])[on, 2]
+    off = (flight["reference_position"] - flight["position"])[on]
     turned = np.exp(1j * (flight["euler"] - flight["reference_euler"])[on, 2])
     beyond = (BEYOND & kinds) | ({flight.outcome} & set(FAILURES))
-    return Answer(float(sunk.max()), math.degrees(float(np.abs(np.angle(turned)).max())), frozenset(beyond))
+    strays, turns = np.linalg.norm(off[:, :2], axis=1).max(), np.abs(np.angle(turned)).max()
+    return Answer(float(off[:, 2].max()), float(strays), math.degrees(float(turns)), frozenset(beyond))
 
 
 def answers(mission: Mission, shakes: Sequence[Shake]) -> Iterator[Answer]:
@@ -113,15 +119,18 @@ def _first_unanswered(mission: Mission, ladders: Sequence[tuple[Shake, Array]]) 
 
 
 def shake_checks(mission: Mission) -> Iterator[CheckResult]:
-    """Check the worst answers to shakes with the peak of a push that is not gentle; turning is an advice to a hand."""
+    """Check the worst answers to shakes with the peak of a push that is not gentle; all but sinking advise a hand."""
     hands = [hand._replace(peak=PUSH * mission.hover.mass / PUSHED) for hand in shaken_hands(mission)]
     found = list(zip(hands, answers(mission, hands), strict=True))
-    for i, (what, limit, unit) in enumerate((("sinking", SINKS, "m"), ("turning", TURNS, "deg"))):
+    far = promise_of(mission.promise, mission.pilot.guidance).distance
+    for i, (what, limit, unit) in enumerate(
+        (("sinking", SINKS, "m"), ("straying", far, "m"), ("turning", TURNS, "deg"))
+    ):
         hand, answer = max(found, key=lambda one: one[1][i])
         where = f"along {AXES[hand.axis]}, {hand.place}, {hand.frequency:g} Hz"
         text = f"{where}: a shake of {hand.peak:.3g} N leaves it {answer[i]:.3g} {unit} off by {what}; shake less there"
         result = judged("shake", answer[i], limit, unit, text, subject=f"{what} {where}", near=0.0)
-        yield result._replace(verdict=CLOSE) if result.verdict == FAILS and what == "turning" else result
+        yield result._replace(verdict=CLOSE) if result.verdict == FAILS and what != "sinking" else result
 
 
 def shake_claims(mission: Mission) -> tuple[list[Claim], dict[str, Any], dict[str, str]]:

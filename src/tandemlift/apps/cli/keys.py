@@ -57,7 +57,8 @@ def new(
 ) -> None:
     """Write a mission FILE of your beam on two quadrotors.
 
-    It tells what they can lift, and how far from their limits they are. A terminal is asked for what no option gives.
+    It tells what they can lift, how far from their limits they are, and which shakes of a hand are too much for them.
+    A terminal is asked for what no option gives.
     Forces, moments and thresholds of the mission suit the weight: docs/how-to/change-the-vehicle.md has the rule, the
     models with their sources, and other quadrotors.
 
@@ -68,6 +69,7 @@ def new(
       tandemlift new beam.toml --quadrotor iris --quadrotor x500
       tandemlift new beam.toml --length 2 --mass 0.5 --center 0.1 --force
     """
+    from tandemlift.analysis.certification.shakes import shake_checks
     from tandemlift.apps.export.new_mission import NewBeam, heaviest_words, hover_words, new_mission, quadrotor_models
     from tandemlift.missions import load_mission
 
@@ -86,7 +88,8 @@ def new(
     echo(*hover_words(beam))
     with atomic_write(path) as partial_file:
         partial_file.write_text(new_mission(path.stem, beam), "utf-8")
-        load_mission(partial_file.absolute())
+        mission = load_mission(partial_file.absolute())
+    echo(*(f"not promised: {result.text}" for result in shake_checks(mission) if result.text))
     name = shlex.quote(file)
     echo(f"written: {file}; next: tandemlift check {name}, tandemlift run {name}")
 

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.contour import ContourSet
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator
 
 from tandemlift.analysis.certification.certificate import Certificate
 from tandemlift.analysis.certification.linear import DISK_PHASE_BAR
@@ -201,7 +202,9 @@ def draw_shakes(tier: Tier) -> Figure:
             peaks = np.minimum(data["peaks"][f"{place}, {axis}"], data["most"])
             axes.loglog(data["frequency"], peaks, marker="o", ms=2.0, label=axis, **style)
         for scale in (axes.xaxis, axes.yaxis):
+            scale.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
             scale.set_major_formatter("{x:g}")
+            scale.set_minor_formatter("")
         axes.set_title(place)
         axes.set_xlabel("frequency (Hz)")
     panels[0].set_ylabel("largest peak (N)")

@@ -1,0 +1,160 @@
+"""The largest shake: what an answer is, how its peak is found, and that flights of another path agree."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import tandemlift as tl
+from tandemlift.analysis.certification import shakes
+from tandemlift.analysis.certification.shakes import (
+    BEYOND,
+    FREQUENCIES,
+    LEAST,
+    LEVELS,
+    MOST,
+    SECONDS,
+    Answer,
+    Shake,
+    answer_of,
+    answers,
+    largest_shakes,
+    shake_checks,
+    shake_claims,
+    shaken_hands,
+)
+from tandemlift.missions import load_mission
+
+CALM = Answer(0.0, 0.0, 0.0, frozenset())
+
+
+class Log(dict):
+    def __init__(self, time, findings=(), outcome="flying", **channels):
+        super().__init__(channels)
+        self.time, self.findings, self.outcome = np.asarray(time, float), findings, outcome
+
+
+def log(**changes):
+    """A record of five samples, at its reference."""
+    still = {name: np.zeros((5, 3)) for name in ("position", "reference_position", "euler", "reference_euler")}
+    return Log(np.arange(5.0), **(still | changes))
+
+
+def test_an_answer_is_the_largest_deviation_from_the_reference_since_the_shake_began():
+    off = np.zeros((5, 3))
+    off[0], off[3] = (9.0, 9.0, -9.0), (0.3, -0.4, -0.2)
+    answer = answer_of(log(position=off), since=1.0)
+    assert answer[:2] == pytest.approx((0.2, 0.5))
+    assert not answer.is_calm
+
+
+def test_a_heading_beyond_half_a_turn_is_near_the_one_before_it():
+    euler, reference = np.zeros((5, 3)), np.zeros((5, 3))
+    euler[2, 2], reference[2, 2] = math.radians(-179.0), math.radians(179.0)
+    assert answer_of(log(euler=euler, reference_euler=reference), since=0.0).turns == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize("kind", [*sorted(BEYOND), "oscillating", "no-response-to-push"])
+def test_a_finding_of_the_hand_itself_leaves_a_shake_answered(kind):
+    found = [SimpleNamespace(kind=kind, time=2.0), SimpleNamespace(kind="touched", time=0.5)]
+    assert answer_of(log(findings=found), since=1.0).is_calm is (kind not in BEYOND)
+
+
+def test_a_crash_answers_no_shake():
+    assert not answer_of(log(outcome="crashed"), since=0.0).is_calm
+
+
+def test_the_largest_peak_lies_within_a_step_of_where_answers_end(monkeypatch):
+    """Against thresholds that are known, some of them below or beyond all that is tried, with a gap above one."""
+    mission = load_mission("iris")
+    scale = mission.hover.mass / 3.5
+    hands = [hand._replace(frequency=f) for f, hand in enumerate(shaken_hands(mission)[:6], 1)]
+    ends = dict(enumerate([0.3, 1.0, 2.2, 7.9, 8.1, 0.9], 1))
+
+    def fake(_, tried):
+        for hand in tried:
+            answered = hand.peak <= ends[hand.frequency] * scale or (hand.frequency == 6 and hand.peak > 2.0 * scale)
+            yield CALM if answered else CALM._replace(sinks=1.0)
+
+    monkeypatch.setattr(shakes, "answers", fake)
+    half_step = (MOST / LEAST) ** (0.5 / (LEVELS - 1) / LEVELS)
+    for found, hand in zip(largest_shakes(mission, hands), hands, strict=True):
+        end = ends[hand.frequency] * scale
+        if end > MOST * scale:
+            assert found == math.inf
+        else:
+            assert 1.0 / half_step <= found / end <= half_step * (1.0 + 1e-9)
+
+
+def test_a_shake_is_refused_by_its_sinking_and_only_advised_against_by_its_turning(monkeypatch):
+    mission = load_mission("iris")
+    worst = shaken_hands(mission)[7]
+
+    def fake(_, tried):
+        for hand in tried:
+            yield Answer(0.3, 0.01, 12.0, frozenset()) if hand[1:] == worst[1:] else CALM
+
+    monkeypatch.setattr(shakes, "answers", fake)
+    sinks, strays, turns = shake_checks(mission)
+    assert (sinks.verdict, sinks.value, sinks.limit) == ("fails", 0.3, 0.1)
+    assert (strays.verdict, turns.verdict, turns.value) == ("ok", "close", 12.0)
+    for result in (sinks, turns):
+        assert f"along x, middle, {FREQUENCIES[7]:g} Hz: a shake of 3 N leaves it" in result.text
+
+
+def test_a_claim_is_the_least_over_places_and_frequencies_and_its_mission_flies_beyond_it(monkeypatch, tmp_path):
+    mission = load_mission("iris")
+    hands = shaken_hands(mission)
+    peaks = [2.0 + i for i in range(len(hands))]
+    monkeypatch.setattr(
+        shakes, "largest_shakes", lambda *_: [*peaks[:22], *[math.inf] * 11, *peaks[33:55], *[math.inf] * 11]
+    )
+    claims, curves, files = shake_claims(mission)
+    assert [claim.value for claim in claims] == [2.0, 13.0, math.inf]
+    assert claims[2].is_least
+    assert "middle, 0.5 Hz" in claims[0].text
+    assert sorted(files) == ["limits/shake-x.toml", "limits/shake-y.toml"]
+    assert sum(map(len, curves["peaks"].values())) == len(hands)
+    path = tmp_path / "beyond.toml"
+    path.write_text(files["limits/shake-x.toml"], "utf-8")
+    flown = tl.load_mission(path)
+    assert claims[0].command == "tandemlift run limits/shake-x.toml"
+    assert len(flown.pushes) == round(2.0 * SECONDS * FREQUENCIES[0])
+
+
+def test_ends_are_apart_where_the_centre_of_mass_is_not_in_the_middle():
+    even, odd = (load_mission("iris", {"vehicle.payload.center_of_mass": [0.0, y, 0.0]}) for y in (0.0, 0.1))
+    assert {hand.place for hand in shaken_hands(even)} == {"middle", "+y end"}
+    assert {hand.place for hand in shaken_hands(odd)} == {"middle", "+y end", "-y end"}
+    ends = {hand.place: hand.point[1] for hand in shaken_hands(odd)}
+    assert ends["+y end"] - ends["-y end"] == pytest.approx(0.9 * odd.vehicle.payload.length)
+
+
+def test_a_true_sine_flown_step_by_step_is_answered_below_the_predicted_peak_and_not_above_it():
+    """Another path: `Simulation`, the lift and the sensors' errors of the mission, a sine instead of Gaussians."""
+    calm = {"phases.lift_start": 1.0, "phases.lift_duration": 5.0, "phases.land_start": None, "pushes": []}
+    calm |= {"estimator.tare_start": 7.0, "mission.duration": 21.0, "mission.log_interval": 0.02}
+    mission = load_mission("iris", calm)
+    (hand,) = (h for h in shaken_hands(mission) if (h.place, h.axis, h.frequency) == ("+y end", 0, 1.0))
+    (peak,) = largest_shakes(mission, [hand])
+    sim = tl.Simulation(mission)
+
+    def is_answered(peak: float) -> bool:
+        sim.reset()
+        sim.step(steps=round(11.0 / sim.dt))
+        while not sim.over:
+            t = sim.time - 11.0 + 0.002
+            sim.step([peak * math.sin(2.0 * math.pi * t) * (t < SECONDS), 0.0, 0.0], point=hand.point, steps=4)
+        return answer_of(sim.flight(), 11.0).is_calm
+
+    assert is_answered(0.8 * peak)
+    assert not is_answered(1.25 * peak)
+
+
+def test_a_faint_shake_moves_nothing():
+    mission = load_mission("iris")
+    (answer,) = answers(mission, [Shake(0.05, 1.0, 0, "middle", (0.0, 0.0, 0.0))])
+    assert answer.is_calm
+    assert answer.sinks < 5e-3
+    assert answer.turns < 0.1
