@@ -2,9 +2,9 @@
 
 python evidence/gentle_hands.py [--draws 2000] [--mission NAME ...] [--seed 52] [--shakes 200] [--mujoco 10] [--write]
 
-A hand is within what rotors can give if an ideal pilot with their limits holds it (`hands/ability.py`). Bad is what its
-flight does, by its samples: a crash, the floor, sinking by more than 0.1 m or turning by more than 5°. It is silent if
-it is bad without a finding, and without a warning at load that the mission without the hand does not have.
+A hand is within what rotors can give if an ideal pilot with their limits holds it (`random_hands/ability.py`). Bad is
+what its flight does, by its samples: a crash, the floor, sinking by more than 0.1 m or turning by more than 5°. It is
+silent if it is bad without a finding, and without a warning at load that the mission without the hand does not have.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from typing import NamedTuple
 os.environ.setdefault("TANDEMLIFT_OPTIMISE", "0")  # many loops, each flown for minutes at most
 
 import numpy as np
-from hands.ability import SINKS, TURNS, is_within
-from hands.drawn import KINDS, LASTS, MISSIONS, RESTS, START, Family, Hand, drawn_hand, families
-from hands.shakes import compared, shake_table
+from random_hands.ability import SINKS, TURNS, is_within
+from random_hands.drawn import KINDS, LASTS, MISSIONS, RESTS, START, Family, Hand, drawn_hand, families
+from random_hands.shakes import compared, shake_table
 
 import tandemlift as tl
 from tandemlift.core.phases import FAILURES

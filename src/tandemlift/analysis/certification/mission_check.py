@@ -60,7 +60,7 @@ LOOP_CHECKS = (
         "how far a sine of 3 N for 3.5 kg, in proportion to the mass, lets the vehicle sink, stray and turn from its "
         "reference in flights of 8 s: 0.5 to 10 Hz, each axis, in the payload's middle and near its ends. Beyond the "
         "limits of straying and turning it is close, and no failure",
-        "0.1 m; `promise.distance`; 5°",
+        "0.1 m; 0.25 m; 5°",
         "m, deg",
         '`actuators.model = "rotors"`, interactive guidance',
         "`compliance.force_lead`, `compliance.input_bandwidth`, `allocation.priorities`, `vehicle.quadrotors`",

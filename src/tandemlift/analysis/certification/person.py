@@ -34,7 +34,7 @@ ASSUMPTIONS = (
     "The vehicle hovers calmly; a push along all axes is beyond its threshold, so that the admittance responds.",
     "The model is linear: no limit of speed, acceleration, tilt or thrust, dead band or energy tank acts.",
     "An arm is a spring and a damper between a fixed place and the grip, with the mass of a hand at the grip.",
-    "The largest shake is found by flights, with all limits: a sine for 8 s, sensors without errors.",
+    "The largest shake is found by flights, with all limits and errors of sensors: a sine for 8 s.",
     "A person who leads sees the vehicle late, as in [person]; the limits are those of small motions.",
     "Contact: two bodies collide once at the largest speed of the admittance; forces and masses of body regions are "
     "those of ISO/TS 15066. Open rotors injure at any speed and are not judged.",

@@ -55,7 +55,7 @@ CAPTIONS = {
     "shakes": Caption(
         "Largest shake over its frequency",
         "The largest peak of a sine of force along each axis that the vehicle answers for 8 s, by flights: it sinks by "
-        "at most 0.1 m, turns by at most 5°, and keeps what it promises. Grey: larger ones were not tried.",
+        "at most 0.1 m, and is at most 0.25 m and 5° off its reference. Grey: larger ones were not tried.",
         "A panel for each place of the hand: curves of the largest peak over the frequency, along x, y and z.",
     ),
     "map": Caption(

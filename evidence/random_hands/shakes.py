@@ -1,8 +1,8 @@
 """The largest shake as the certificate predicts it, and as flights that know nothing of it find it.
 
-Predicted by flights in blocks from a calm hover without errors of sensors. Flown by `tl.Simulation`, step by step,
-with a true sine, the mission's own lift, errors and noise, another seed, and some in MuJoCo: 15 % less must be
-answered, 15 % more must not. Where that is not so, bisection tells the ratio.
+Predicted by flights in blocks. Flown by `tl.Simulation`, step by step, with a true sine in place of Gaussians, another
+lift, another seed of all errors and noise, and some in MuJoCo: 15 % less must be answered, 15 % more must not. Where
+that is not so, bisection tells the ratio.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 import tandemlift as tl
-from hands.drawn import HOVER, START
+from random_hands.drawn import HOVER, START
 from tandemlift.analysis.certification.shakes import (
     FREQUENCIES,
     MOST,
