@@ -29,6 +29,7 @@ from random_hands.shakes import compared, shake_table
 
 import tandemlift as tl
 from tandemlift.core.phases import FAILURES
+from tandemlift.flight.deviations import deviations
 from tandemlift.flight.record import Flight
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "reference" / "validation.md"
@@ -61,15 +62,13 @@ class Outcome(NamedTuple):
 
 def outcome_of(hand: Hand, flight: Flight) -> Outcome:
     """Measure a flight by its samples from the hand's begin on."""
-    on = flight.time >= START
-    down = (flight["reference_position"] - flight["position"])[on, 2]
-    turned = np.angle(np.exp(1j * (flight["euler"] - flight["reference_euler"])[on, 2]))
+    on, off = flight.time >= START, deviations(flight, START)
     stands = hand.mission.initial.position[2] if hand.mission.ground.model == "floor" else -np.inf
     return Outcome(
         hand=hand,
         within=is_within(hand.mission, START, START + LASTS + RESTS),
-        sinks=float(down.max(initial=0.0)),
-        turns=float(np.degrees(np.abs(turned).max(initial=0.0))),
+        sinks=off.sinks,
+        turns=off.turns,
         floor=bool((flight["position"][on, 2] < stands + ON_FLOOR).any()),
         crashed=flight.outcome in FAILURES,
         findings=tuple(f.kind for f in flight.findings if f.time >= START),

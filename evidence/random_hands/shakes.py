@@ -22,7 +22,7 @@ from tandemlift.analysis.certification.shakes import (
     RESTS,
     SECONDS,
     Shake,
-    answer_of,
+    is_answered,
     largest_shakes,
     shaken_hands,
 )
@@ -52,7 +52,7 @@ def mission_to_shake(base: str) -> Mission:
     return tl.load_mission(base, {**HOVER, "wind.model": "none", "mission.duration": START + SECONDS + RESTS})
 
 
-def is_answered(sim: tl.Simulation, hand: Shake, peak: float, seed: int) -> bool:
+def answers(sim: tl.Simulation, hand: Shake, peak: float, seed: int) -> bool:
     """Whether a flight answers a true sine of that peak [N]."""
     sim.reset(seed)
     sim.step(steps=round(START / sim.dt))
@@ -62,20 +62,20 @@ def is_answered(sim: tl.Simulation, hand: Shake, peak: float, seed: int) -> bool
         t = sim.time - START + 0.5 * count * sim.dt
         force[hand.axis] = peak * math.sin(2.0 * math.pi * hand.frequency * t) if t < end else 0.0
         sim.step(force, point=hand.point, steps=count)
-    return answer_of(sim.flight(), START).is_calm
+    return is_answered(sim.flight(), START)
 
 
 def flown_ratio(sim: tl.Simulation, hand: Shake, peak: float, most: bool, seed: int) -> float:
     """The largest answered peak over a predicted one; 1 within 15 %. `most`: no larger one was tried."""
-    if not is_answered(sim, hand, peak * (1.0 - WITHIN), seed):
+    if not answers(sim, hand, peak * (1.0 - WITHIN), seed):
         low, high = 1.0 / FARTHEST, 1.0 - WITHIN
-    elif most or not is_answered(sim, hand, peak * (1.0 + WITHIN), seed):
+    elif most or not answers(sim, hand, peak * (1.0 + WITHIN), seed):
         return 1.0
     else:
         low, high = 1.0 + WITHIN, FARTHEST
     for _ in range(HALVINGS):
         middle = math.sqrt(low * high)
-        low, high = (middle, high) if is_answered(sim, hand, peak * middle, seed) else (low, middle)
+        low, high = (middle, high) if answers(sim, hand, peak * middle, seed) else (low, middle)
     return math.sqrt(low * high)
 
 
