@@ -4,7 +4,8 @@ python evidence/gentle_hands.py [--draws 2000] [--mission NAME ...] [--seed 52] 
 
 A hand is within what rotors can give if an ideal pilot with their limits holds it (`random_hands/ability.py`). Bad is
 what its flight does, by its samples: a crash, the floor, sinking by more than 0.1 m or turning by more than 5°. It is
-silent if it is bad without a finding, and without a warning at load that the mission without the hand does not have.
+silent if it crashes, is on the floor, sinks by more than 0.1 m or turns by more than the 20° that are promised, without
+a finding, and without a warning at load that the mission without the hand does not have.
 """
 
 from __future__ import annotations
@@ -35,6 +36,7 @@ from tandemlift.flight.record import Flight
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "reference" / "validation.md"
 MARK, END = (f"<!-- {edge} of what `gentle_hands.py` prints -->" for edge in ("begin", "end"))
 FAMILY = 25  # hands of a family
+PROMISED = 20.0  # deg
 ON_FLOOR = 0.01  # m above where it stands
 
 
@@ -57,7 +59,8 @@ class Outcome(NamedTuple):
     @property
     def silent(self) -> bool:
         """Whether it is bad, and nothing told it."""
-        return self.bad and not self.findings and not self.hand.warnings
+        worst = self.crashed or self.floor or self.sinks > SINKS or self.turns > PROMISED
+        return worst and not self.findings and not self.hand.warnings
 
 
 def outcome_of(hand: Hand, flight: Flight) -> Outcome:
