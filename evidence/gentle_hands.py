@@ -29,8 +29,8 @@ from random_hands.drawn import KINDS, LASTS, MISSIONS, RESTS, START, Family, Han
 from random_hands.shakes import compared, shake_table
 
 import tandemlift as tl
+from tandemlift.analysis.certification.shakes import deviations
 from tandemlift.core.phases import FAILURES
-from tandemlift.flight.deviations import deviations
 from tandemlift.flight.record import Flight
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "reference" / "validation.md"

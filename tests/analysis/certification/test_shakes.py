@@ -14,19 +14,27 @@ from tandemlift.analysis.certification.shakes import (
     LEAST,
     LEVELS,
     MOST,
+    PEAK,
+    PUSHED,
     SECONDS,
     Shake,
+    ShakenMotion,
+    deviations,
     flown_shakes,
+    hover_to_shake,
     is_answered,
     largest_shakes,
     shake_checks,
     shake_claims,
+    shaken,
     shaken_hands,
 )
-from tandemlift.flight.deviations import Deviations, deviations
+from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.missions import load_mission
+from tandemlift.parts.mechanics.push import GaussianPush, gaussian_force
+from tandemlift.parts.rotors import authority
 
-CALM = Deviations(0.0, 0.0, 0.0)
+CALM = ShakenMotion(0.0, 0.0, 0.0)
 
 
 class Log(dict):
@@ -39,6 +47,23 @@ def log(**changes):
     """A record of five samples, at its reference."""
     still = {name: np.zeros((5, 3)) for name in ("position", "reference_position", "euler", "reference_euler")}
     return Log(np.arange(5.0), **(still | changes))
+
+
+@pytest.mark.parametrize("frequency", [0.5, 3.3, 10.0])
+def test_gaussians_of_alternating_sign_add_up_to_a_sine(frequency):
+    """Within the third harmonic, e^(−4 (2π/5)²) = 0.0018 of the peak, away from both ends."""
+    hover, at = hover_to_shake(load_mission("iris"))
+    pushes = shaken(hover, at, Shake(2.5, frequency, 1, "middle", (0.1, 0.2, 0.3))).pushes
+    bells = [GaussianPush(Vec3(*p.force), p.time, 1.0 / p.sigma, ZERO) for p in pushes]
+    t = np.linspace(1.0 / frequency, SECONDS - 1.0 / frequency, 300)
+    total = np.sum([[gaussian_force(bell, at + float(x)) for x in t] for bell in bells], axis=0)
+    assert np.abs(total[:, 1] - 2.5 * np.sin(2.0 * np.pi * frequency * t)).max() <= 0.0019 * 2.5
+    assert not total[:, [0, 2]].any()
+    assert {p.point for p in pushes} == {(0.1, 0.2, 0.3)}
+
+
+def test_the_check_shakes_with_the_force_of_the_check_of_a_push():
+    assert (PEAK, PUSHED) == (authority.PUSH, authority.PUSHED)
 
 
 def test_deviations_are_the_largest_from_the_reference_since_the_shake_began():
@@ -93,7 +118,7 @@ def test_a_shake_is_refused_by_its_sinking_and_only_advised_against_by_its_turni
 
     def fake(_, tried):
         for hand in tried:
-            yield True, Deviations(0.3, 0.01, 12.0) if hand[1:] == worst[1:] else CALM
+            yield True, ShakenMotion(0.3, 0.01, 12.0) if hand[1:] == worst[1:] else CALM
 
     monkeypatch.setattr(shakes, "flown_shakes", fake)
     sinks, strays, turns = shake_checks(mission)

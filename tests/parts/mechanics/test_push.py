@@ -22,7 +22,6 @@ from tandemlift.parts.mechanics.push import (
     gaussian_force,
     push_at,
     push_moment,
-    sine_pushes,
 )
 
 NO_POINT_PUSH = PointPush(ZERO, mat3(np.zeros((3, 3))))
@@ -35,18 +34,6 @@ def test_the_impulse_of_a_push_is_its_peak_times_its_width(A, sigma):
     assert whole == pytest.approx(A * sigma * np.sqrt(2.0 * np.pi), rel=1e-9, abs=1e-9)
     assert gaussian_force(p, 3.0) == pytest.approx((A, -A, 2.0 * A))
     assert gaussian_force(p, 3.0 + sigma).x == pytest.approx(A * np.exp(-0.5))
-
-
-@given(st.floats(0.3, 12.0), numbers(6.0))
-def test_gaussians_of_alternating_sign_add_up_to_a_sine(f, peak):
-    """Within the third harmonic, e^(−4 (2π/5)²) = 0.0018 of the peak, away from both ends."""
-    pushes = sine_pushes((peak, 0.0, -peak), f, 3.0, 20.0 / f, (0.1, 0.2, 0.3))
-    t = 3.0 + np.linspace(3.0, 17.0, 200) / f
-    bells = [GaussianPush(Vec3(*p.force), p.time, 1.0 / p.sigma, ZERO) for p in pushes]
-    total = np.sum([[gaussian_force(bell, float(at)).x for at in t] for bell in bells], axis=0)
-    assert np.abs(total - peak * np.sin(2.0 * np.pi * f * (t - 3.0))).max() <= 0.0019 * abs(peak)
-    assert len(pushes) == 40
-    assert {p.point for p in pushes} == {(0.1, 0.2, 0.3)}
 
 
 def test_a_push_is_exactly_zero_where_it_is_over():

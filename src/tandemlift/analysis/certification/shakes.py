@@ -19,21 +19,29 @@ from tandemlift.analysis.linearization.claims import Claim
 from tandemlift.core.errors import CLOSE, FAILS, CheckResult, judged
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array
-from tandemlift.flight.deviations import Deviations, deviations
-from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, format_toml, tables_of
-from tandemlift.parts.mechanics.push import sine_pushes
-from tandemlift.parts.rotors.authority import PUSH, PUSHED
-from tandemlift.simulation.fly import fly_many
+from tandemlift.simulation.fly import Flight, fly_many
 
 AXES = "xyz"
 FREQUENCIES = (0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.5, 8.0, 10.0)  # Hz
 SECONDS, RESTS = 8.0, 2.0
-LIMITS = Deviations(0.1, 0.25, 5.0)  # m, m, deg
 BEYOND = {"touched", "out-of-reach", "landed-by-fault"}
 NEAR_END = 0.9  # of half the payload's length: where a hand holds an end
-LEAST, MOST, LEVELS = 0.25, 8.0, 8  # N for `PUSHED` kg, in proportion to the mass: peaks that are tried, and how many
+PEAK, PUSHED = 3.0, 3.5  # N and kg of the check, as of the check `push`: all forces are in proportion to the mass
+LEAST, MOST, LEVELS = 0.25, 8.0, 8  # N: peaks that are tried, and how many
+WIDTH = 0.2  # of a period: σ of the Gaussians whose sum is a sine
 LOGGED, AT_ONCE = 0.02, 128  # s; flights in memory
+
+
+class ShakenMotion(NamedTuple):
+    """How far a vehicle sinks below its reference [m], strays beside it [m], and turns off its heading [deg]."""
+
+    sinks: float
+    strays: float
+    turns: float
+
+
+LIMITS = ShakenMotion(0.1, 0.25, 5.0)
 
 
 class Shake(NamedTuple):
@@ -62,6 +70,15 @@ def shaken_hands(mission: Mission) -> list[Shake]:
     return [Shake(0.0, f, axis, name, point) for name, point in places for axis in range(3) for f in FREQUENCIES]
 
 
+def deviations(flight: Flight, since: float) -> ShakenMotion:
+    """The largest deviations of a flight from a time [s] on, by its samples."""
+    on = flight.time >= since
+    off = (flight["reference_position"] - flight["position"])[on]
+    turned = np.exp(1j * (flight["euler"] - flight["reference_euler"])[on, 2])
+    strays, turns = np.linalg.norm(off[:, :2], axis=1).max(), np.abs(np.angle(turned)).max()
+    return ShakenMotion(float(off[:, 2].max()), float(strays), math.degrees(float(turns)))
+
+
 def is_answered(flight: Flight, since: float) -> bool:
     """Whether a flight answers a shake from a time [s] on."""
     bad = flight.outcome in FAILURES or any(f.kind in BEYOND and f.time >= since for f in flight.findings)
@@ -71,17 +88,26 @@ def is_answered(flight: Flight, since: float) -> bool:
 def hover_to_shake(mission: Mission) -> tuple[Mission, float]:
     """(A hover of a mission in calm air, with its own rotors and sensors, the time [s] at which it is calm)."""
     (hover, at), own = hover_as_flown(mission), tables_of(mission)
-    keys = {name: own[name] for name in ("vehicle", "sensors", "ground")}
+    keys: dict[str, Any] = {name: own[name] for name in ("vehicle", "sensors", "ground")}
+    keys["pushes"] = [{"force": [0.0] * 3, "time": at, "sigma": 1.0}]
     return with_keys(hover, keys | {"mission.duration": at + SECONDS + RESTS, "mission.log_interval": LOGGED}), at
 
 
 def shaken(hover: Mission, at: float, hand: Shake) -> Mission:
-    """A hover with a shake from a time [s] on."""
-    force = tuple((hand.peak * np.eye(3)[hand.axis]).tolist())
-    return hover.model_copy(update={"pushes": sine_pushes(force, hand.frequency, at, SECONDS, hand.point)})
+    """A hover with a shake from a time [s] on: Gaussians of alternating sign, half a period T apart, of σ = T/5.
+
+    The odd harmonics n of their sum have 4 σ √(2π)/T e^(−(n ω σ)²/2), so the third has 0.0018 of the first.
+    """
+    force = hand.peak * np.eye(3)[hand.axis] / (4.0 * WIDTH * math.sqrt(2.0 * math.pi))
+    force *= math.exp(0.5 * (2.0 * math.pi * WIDTH) ** 2)
+    ways = [{"force": tuple((way * force).tolist())} for way in (1.0, -1.0)]
+    bell = hover.pushes[0].model_copy(update={"sigma": WIDTH / hand.frequency, "point": hand.point})
+    times = (at + (0.5 * k + 0.25) / hand.frequency for k in range(max(1, round(2.0 * SECONDS * hand.frequency))))
+    pushes = tuple(bell.model_copy(update={"time": t, **ways[k % 2]}) for k, t in enumerate(times))
+    return hover.model_copy(update={"pushes": pushes})
 
 
-def flown_shakes(mission: Mission, hands: Sequence[Shake]) -> Iterator[tuple[bool, Deviations]]:
+def flown_shakes(mission: Mission, hands: Sequence[Shake]) -> Iterator[tuple[bool, ShakenMotion]]:
     """Whether a mission's vehicle answers each shake, and how far it deviates."""
     hover, at = hover_to_shake(mission)
     for i in range(0, len(hands), AT_ONCE):
@@ -112,7 +138,7 @@ def _first_unanswered(mission: Mission, ladders: Sequence[tuple[Shake, Array]]) 
 
 def shake_checks(mission: Mission) -> Iterator[CheckResult]:
     """Check the worst answers to shakes with the peak of a push that is not gentle; all but sinking advise a hand."""
-    hands = [hand._replace(peak=PUSH * mission.hover.mass / PUSHED) for hand in shaken_hands(mission)]
+    hands = [hand._replace(peak=PEAK * mission.hover.mass / PUSHED) for hand in shaken_hands(mission)]
     found = [(hand, off) for hand, (_, off) in zip(hands, flown_shakes(mission, hands), strict=True)]
     for i, (what, unit) in enumerate((("sinking", "m"), ("straying", "m"), ("turning", "deg"))):
         hand, off = max(found, key=lambda one: one[1][i])

@@ -57,8 +57,7 @@ def new(
 ) -> None:
     """Write a mission FILE of your beam on two quadrotors.
 
-    It tells what they can lift, how far from their limits they are, and which shakes of a hand are too much for them.
-    A terminal is asked for what no option gives.
+    It tells what they can lift, and which shakes of a hand are too much. A terminal is asked for what no option gives.
     Forces, moments and thresholds of the mission suit the weight: docs/how-to/change-the-vehicle.md has the rule, the
     models with their sources, and other quadrotors.
 
@@ -69,9 +68,9 @@ def new(
       tandemlift new beam.toml --quadrotor iris --quadrotor x500
       tandemlift new beam.toml --length 2 --mass 0.5 --center 0.1 --force
     """
-    from tandemlift.analysis.certification.shakes import shake_checks
     from tandemlift.apps.export.new_mission import NewBeam, heaviest_words, hover_words, new_mission, quadrotor_models
     from tandemlift.missions import load_mission
+    from tandemlift.pictures.report.study.certificate_report import shake_checks
 
     path, models = file_path("FILE", file, ".toml"), quadrotor_models()
     if path.exists() and not force:

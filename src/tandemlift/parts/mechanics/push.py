@@ -5,7 +5,6 @@ Several pushes at several points act as one force F = Σ F_i in world axes and o
 number of pushes does not enter the equations of motion.
 """
 
-import math
 from typing import Generic, NamedTuple, TypeAlias, TypeVar
 
 from tandemlift.core.algebra import exp, where
@@ -30,35 +29,7 @@ class PushTable(Table):
     )
 
 
-WIDTH = 0.2  # of a period: σ of the Gaussians whose sum is a sine
 SUPPORT = 9.0  # a push is exactly zero beyond 9 σ, where the Gaussian is 3e-18 of its peak
-
-
-def sine_pushes(
-    force: tuple[float, float, float], frequency: float, start: float, lasts: float, point: tuple[float, float, float]
-) -> tuple[PushTable, ...]:
-    """`[[pushes]]` whose sum is a sine: Gaussians of alternating sign, half a period T apart, each of σ = T/5.
-
-    The odd harmonics n of their sum have 4 σ √(2π)/T e^(−(n ω σ)²/2), so the third has 0.0018 of the first.
-
-    Args:
-        force: peak [N, world axes] (3).
-        frequency: [Hz].
-        start: of the sine [s].
-        lasts: its duration [s], of which half periods are rounded.
-        point: of application [m, body axes] (3).
-    """
-    scale = 4.0 * WIDTH * math.sqrt(2.0 * math.pi) * math.exp(-0.5 * (2.0 * math.pi * WIDTH) ** 2)
-    half = PushTable(force=force, time=start, sigma=WIDTH / frequency, point=point)
-    return tuple(
-        half.model_copy(
-            update={
-                "force": tuple((-1) ** k * x / scale for x in force),
-                "time": start + (0.5 * k + 0.25) / frequency,
-            }
-        )
-        for k in range(max(1, round(2.0 * lasts * frequency)))
-    )
 
 
 @linear
