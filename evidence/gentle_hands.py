@@ -5,7 +5,8 @@ python evidence/gentle_hands.py [--draws 2000] [--mission NAME ...] [--seed 52] 
 A hand is within what rotors can give if an ideal pilot with their limits holds it (`random_hands/ability.py`). Bad is
 what its flight does, by its samples: a crash, the floor, sinking by more than 0.1 m or turning by more than 5°. It is
 silent if it crashes, is on the floor, sinks by more than 0.1 m or turns by more than the 20° that are promised, without
-a finding, and without a warning at load that the mission without the hand does not have.
+a finding, and without a warning at load that the mission without the hand does not have. Ctrl-C ends the flights, and
+prints the tables of those that are done.
 """
 
 from __future__ import annotations
@@ -16,10 +17,11 @@ import os
 import re
 import sys
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from itertools import islice
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 os.environ.setdefault("TANDEMLIFT_OPTIMISE", "0")  # many loops, each flown for minutes at most
 
@@ -35,6 +37,7 @@ from tandemlift.flight.record import Flight
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "reference" / "validation.md"
 MARK, END = (f"<!-- {edge} of what `gentle_hands.py` prints -->" for edge in ("begin", "end"))
+T = TypeVar("T")
 FAMILY = 25  # hands of a family
 PROMISED = 20.0  # deg
 ON_FLOOR = 0.01  # m above where it stands
@@ -116,6 +119,15 @@ def outcomes(seed: int, draws: int, bases: tuple[str, ...]) -> Iterator[Outcome]
     print(f"\r{count} of {count} families", file=sys.stderr)
 
 
+def until_stopped(rows: Iterable[T]) -> list[T]:
+    """All rows, or those until Ctrl-C."""
+    found = list[T]()
+    with suppress(KeyboardInterrupt):
+        for row in rows:
+            found.append(row)
+    return found
+
+
 def main() -> int:
     """Draw, fly, measure, print; 1 if a hand within what rotors can give fells the vehicle, or is silent."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -126,7 +138,7 @@ def main() -> int:
     parser.add_argument("--write", action="store_true", help="write the tables into docs/reference/validation.md")
     a = parser.parse_args()
     bases = tuple(a.mission)
-    rows = list(islice(outcomes(a.seed, a.draws, bases), a.draws))
+    rows = until_stopped(islice(outcomes(a.seed, a.draws, bases), a.draws))
     for r in rows:
         if r.silent or (r.within and (r.floor or r.crashed)) or (a.every and r.bad):
             h, f = r.hand, r.hand.family
@@ -138,7 +150,7 @@ def main() -> int:
                 f"{len(h.changes['pushes'])} × {np.round(push['force'], 2)} σ {push['sigma']:.3f} "
                 f"at {np.round(push['point'], 2)}; {len(h.warnings)} warnings"
             )
-    found = [*compared(a.seed, a.shakes, a.mujoco, bases)] if a.shakes else []
+    found = until_stopped(compared(a.seed, a.shakes, a.mujoco, bases)) if a.shakes else []
     day = datetime.datetime.now(datetime.UTC).strftime("%Y-%m-%d")
     head = f"{day} · `python evidence/gentle_hands.py`, seed {a.seed} · tandemlift {tl.__version__}"
     parts = [MARK, head, *([table(rows)] if rows else []), *([shake_table(found)] if found else []), END]
