@@ -29,10 +29,12 @@ from tandemlift.analysis.certification.shakes import (
     shaken,
     shaken_hands,
 )
+from tandemlift.analysis.linearization.claims import Tier
 from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.missions import load_mission
 from tandemlift.parts.mechanics.push import GaussianPush, gaussian_force
 from tandemlift.parts.rotors import authority
+from tandemlift.pictures.report.study.certificate_figures import draw_shakes
 
 CALM = ShakenMotion(0.0, 0.0, 0.0)
 
@@ -183,3 +185,15 @@ def test_a_faint_shake_moves_nothing():
     assert answered
     assert off.sinks < 5e-3
     assert off.turns < 0.3  # the noise of the heading is 0.1°
+
+
+def test_the_figure_draws_each_peak_of_each_place_and_ends_at_the_largest_that_was_tried():
+    peaks = {
+        f"{place}, {axis}": [k + 1.0, 2.0, math.inf] for place in ("middle", "+y end") for k, axis in enumerate("xyz")
+    }
+    data = {"frequency": [0.5, 2.0, 10.0], "most": 8.0, "peaks": peaks}
+    panels = draw_shakes(Tier("person", "", (), curves={"shakes": data})).axes
+    assert [axes.get_title() for axes in panels] == ["middle", "+y end"]
+    for axes in panels:
+        lines = {line.get_label(): line.get_ydata().tolist() for line in axes.lines[1:]}
+        assert lines == {axis: [k + 1.0, 2.0, 8.0] for k, axis in enumerate("xyz")}
