@@ -74,6 +74,13 @@ def test_vehicles_of_any_weight_move_alike_under_pushes_that_suit_them(model, fl
 
 
 @pytest.mark.parametrize("model", MODELS)
+def test_shakes_that_the_check_finds_too_much_are_not_promised(model, flown):
+    _, checks, _, told = flown[model]
+    texts = [result.text for result in checks if result.check == "shake" and result.text]
+    assert re.findall("not promised: (.*)", told) == texts
+
+
+@pytest.mark.parametrize("model", MODELS)
 def test_what_is_told_of_thrusts_is_what_a_flight_shows(model, flown):
     mission, _, flight, told = flown[model]
     hover, limits = (flight.time > 9.0) & (flight.time < 13.0), [q.thrust_limit for q in mission.vehicle.quadrotors]

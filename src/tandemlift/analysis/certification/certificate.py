@@ -19,7 +19,7 @@ TIERS = ("linear", "structured", "person", "nonlinear", "statistics")
 SECONDS = {  # of a tier of `iris` on two cores, without flights that look for its limits and with them; of a flight
     "linear": (20.0, 60.0),
     "structured": (20.0, 20.0),
-    "person": (10.0, 60.0),
+    "person": (40.0, 90.0),
     "nonlinear": (40.0, 60.0),
     "statistics": (0.03, 0.03),
 }

@@ -22,6 +22,7 @@ from tandemlift.analysis.certification.felt_admittance import (
 )
 from tandemlift.analysis.certification.linear import nearest_to_oscillation
 from tandemlift.analysis.certification.parameters import ARM
+from tandemlift.analysis.certification.shakes import shake_claims
 from tandemlift.analysis.linearization.claims import Claim, Tier
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
@@ -33,6 +34,7 @@ ASSUMPTIONS = (
     "The vehicle hovers calmly; a push along all axes is beyond its threshold, so that the admittance responds.",
     "The model is linear: no limit of speed, acceleration, tilt or thrust, dead band or energy tank acts.",
     "An arm is a spring and a damper between a fixed place and the grip, with the mass of a hand at the grip.",
+    "The largest shake is found by flights, with all limits and errors of sensors: a sine for 8 s.",
     "A person who leads sees the vehicle late, as in [person]; the limits are those of small motions.",
     "Contact: two bodies collide once at the largest speed of the admittance; forces and masses of body regions are "
     "those of ISO/TS 15066. Open rotors injure at any speed and are not judged.",
@@ -83,13 +85,15 @@ def person_tier(mission: Mission, box: ArmBox, *, fly: bool = False) -> Tier:
     except InputError as error:
         return Tier("person", TITLE, ASSUMPTIONS, reason=f"there is no linear model: {error}")
     contact = contact_claims(mission.hover.mass, max(mission.compliance.max_speed))
-    claims = (*passivity(felt), *_arms(mission.person, felt, box), *contact)
+    shakes, shaken, files = shake_claims(mission)
+    claims = (*passivity(felt), *_arms(mission.person, felt, box), *shakes, *contact)
     curves = {
         "frequency": felt.w.tolist(),
         **{axis: felt.Y[:, i, i].real.tolist() for i, axis in enumerate("xyz")},
         "map": admittance_map(mission, fly=fly),
+        "shakes": shaken,
     }
-    return Tier("person", TITLE, ASSUMPTIONS, claims, curves)
+    return Tier("person", TITLE, ASSUMPTIONS, claims, curves, files)
 
 
 def passivity(felt: FeltAdmittance) -> Iterator[Claim]:

@@ -57,7 +57,7 @@ def new(
 ) -> None:
     """Write a mission FILE of your beam on two quadrotors.
 
-    It tells what they can lift, and how far from their limits they are. A terminal is asked for what no option gives.
+    It tells what they can lift, and which shakes of a hand are too much. A terminal is asked for what no option gives.
     Forces, moments and thresholds of the mission suit the weight: docs/how-to/change-the-vehicle.md has the rule, the
     models with their sources, and other quadrotors.
 
@@ -70,6 +70,7 @@ def new(
     """
     from tandemlift.apps.export.new_mission import NewBeam, heaviest_words, hover_words, new_mission, quadrotor_models
     from tandemlift.missions import load_mission
+    from tandemlift.pictures.report.study.certificate_report import shake_checks
 
     path, models = file_path("FILE", file, ".toml"), quadrotor_models()
     if path.exists() and not force:
@@ -86,7 +87,8 @@ def new(
     echo(*hover_words(beam))
     with atomic_write(path) as partial_file:
         partial_file.write_text(new_mission(path.stem, beam), "utf-8")
-        load_mission(partial_file.absolute())
+        mission = load_mission(partial_file.absolute())
+    echo(*(f"not promised: {result.text}" for result in shake_checks(mission) if result.text))
     name = shlex.quote(file)
     echo(f"written: {file}; next: tandemlift check {name}, tandemlift run {name}")
 

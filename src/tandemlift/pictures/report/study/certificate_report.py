@@ -18,6 +18,7 @@ from tandemlift.analysis.certification.certificate import time_left as time_left
 from tandemlift.analysis.certification.flown import with_limits
 from tandemlift.analysis.certification.linear import linear_tier
 from tandemlift.analysis.certification.person import ArmBox, person_tier
+from tandemlift.analysis.certification.shakes import shake_checks as shake_checks
 from tandemlift.analysis.certification.statistics import FLIGHTS, statistics_tier
 from tandemlift.analysis.linearization.claims import Claim, Tier
 from tandemlift.analysis.robustness.nonlinear import nonlinear_tier
