@@ -16,8 +16,7 @@ from tandemlift.engines.registry import engine_named
 from tandemlift.flight.record import LATE
 from tandemlift.missions import Mission
 from tandemlift.parts.controllers import NoMemory, control
-from tandemlift.parts.interaction.caller_inputs import CallerInput
-from tandemlift.parts.interaction.outside_push import OutsidePush
+from tandemlift.parts.interaction.caller_inputs import CallerInput, OutsidePush
 from tandemlift.parts.interaction.requests import ReferenceVelocity
 from tandemlift.simulation.loop.log_sample import Sample
 from tandemlift.simulation.preparation import FlightStart, LeafSpan, LoopCode, PythonController, TimeGrid, leaf_offset

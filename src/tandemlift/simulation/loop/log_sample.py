@@ -17,7 +17,7 @@ from tandemlift.engines.compiled_contact import DistantFloor
 from tandemlift.parts.contact.feet import Floor
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate, DisturbanceObserver
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceChannels
-from tandemlift.parts.interaction.outside_push import total_force, total_moment
+from tandemlift.parts.interaction.caller_inputs import total_force, total_moment
 from tandemlift.parts.mechanics.joint_loads import PartLoads, PerfectReadings, sum_over_set
 from tandemlift.parts.mechanics.push import push_moment
 from tandemlift.parts.mechanics.rigid_body import Wrench

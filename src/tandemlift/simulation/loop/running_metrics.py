@@ -13,7 +13,7 @@ from tandemlift.parts.contact.clearance import Clearance, clearance, smaller_cle
 from tandemlift.parts.guidance.estimate_errors import EstimateErrors, PushErrors, error_metrics, with_errors
 from tandemlift.parts.guidance.guidance import thrust_fraction
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceChannels
-from tandemlift.parts.interaction.outside_push import OutsidePush, held_by_anyone
+from tandemlift.parts.interaction.caller_inputs import OutsidePush, held_by_anyone
 from tandemlift.parts.interaction.person import PersonState
 from tandemlift.parts.interaction.virtual_hand import VirtualHandState
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion, wrap_angle

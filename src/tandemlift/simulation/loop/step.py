@@ -19,8 +19,13 @@ from tandemlift.engines.touches import touches_in
 from tandemlift.parts.contact.feet import FootGrip
 from tandemlift.parts.contact.touches import Touches, of_turning_rotors
 from tandemlift.parts.contact.walls import NearWalls
-from tandemlift.parts.interaction.caller_inputs import CallerInput, commanded_thrusts, lead_of, with_caller_push
-from tandemlift.parts.interaction.outside_push import OutsidePush
+from tandemlift.parts.interaction.caller_inputs import (
+    CallerInput,
+    OutsidePush,
+    commanded_thrusts,
+    lead_of,
+    with_caller_push,
+)
 from tandemlift.parts.interaction.person import Person, PersonState, landing_request, person_step
 from tandemlift.parts.interaction.requests import UNKNOWN_STATUS, operator_request
 from tandemlift.parts.interaction.tremor import TremorNoise
