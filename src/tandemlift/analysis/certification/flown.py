@@ -15,7 +15,7 @@ import numpy as np
 
 from tandemlift.analysis.certification.parameters import ARM, parameter, with_keys
 from tandemlift.analysis.linearization.claims import Claim, FlownLimit, Tier
-from tandemlift.analysis.linearization.loop_margins import UNROUNDED, calm_mission, rotor_delay_and_lag
+from tandemlift.analysis.linearization.loop_margins import UNROUNDED, calm_mission
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array
@@ -31,6 +31,7 @@ PULL = 0.02  # N along x and y, by which an arm begins to pull
 LARGE = 0.3  # rad/s and m/s: a motion that such a push or pull does not cause by itself
 SENSITIVE = 1e-4  # N: the threshold of a push while an arm holds the vehicle, which hides small oscillations else
 LOGGED = 0.005  # s
+LAGS = ("lag_up", "lag_down")
 LOST, OSCILLATES, REFUSED = "lost", "oscillation", "refused"
 PAST = 1.05  # of a limit: the mission beside it flies beyond, where the oscillation grows
 
@@ -117,10 +118,9 @@ def hover_as_flown(mission: Mission) -> tuple[Mission, float]:
     calm, at = calm_mission(mission)
     own, t = tables_of(mission), tables_of(calm)
     if mission.actuators.model == "rotors":  # ideal ones have no limit, lag or delay
-        _, lag = rotor_delay_and_lag(mission.hover)
         t["actuators"] = own["actuators"]
-        for q, original in zip(t["vehicle"]["quadrotors"], own["vehicle"]["quadrotors"], strict=True):
-            q |= {"max_speed": original["max_speed"], "lag_up": lag, "lag_down": lag}
+        for q, real in zip(t["vehicle"]["quadrotors"], own["vehicle"]["quadrotors"], strict=True):
+            q |= {"max_speed": real["max_speed"]} | dict.fromkeys(LAGS, 0.5 * (real["lag_up"] + real["lag_down"]))
     return check(merge(t, {"sensors": UNROUNDED}), mission.mission.name, quiet=True), at
 
 
@@ -206,9 +206,5 @@ def with_limits(tier: Tier, mission: Mission, fly: bool) -> Tier:
 
 
 def _mission_beyond(trial: LimitTrial, limit: float) -> Mission:
-    """The mission that flies beyond a limit, or just within it if missions beyond are refused."""
-    beyond = PAST if limit >= trial.nominal else 1.0 / PAST
-    try:
-        return trial.mission(limit * beyond)
-    except InputError:
-        return trial.mission(limit / beyond)
+    """The mission that flies beyond a limit."""
+    return trial.mission(limit * PAST if limit >= trial.nominal else limit / PAST)

@@ -4,7 +4,7 @@ Each parameter p lies within a range and enters as p = middle + half δ, |δ| �
 
 - a rotor's own gain adds the thrust p T of that rotor;
 - an inertia adds the moment −p J ω̇ about its axis;
-- the rotors' lag is τ (1 + p);
+- the rotors' lags are τᵢ (1 + p), rotors of one lag with one signal;
 - their delay is longer by p: e^(−jωp) = (1 − jt)/(1 + jt), with a real t = tan(ωp/2);
 - all rotors' thrust is 1 + p times what is commanded;
 - mass and thrust also change the hover, by `Trim`. Both together add in the open loop, where the thrust scales what the
@@ -127,15 +127,23 @@ def uncertain_loop(family: Family, box: Mapping[str, Span], *, late: bool = True
         z = uncertain("delay", "rotors", 4, arrived, by=-t if late else 0.0)
         middle = rotors_response(w, box["delay"].middle, 0.0)
         arrived = {"lifting": middle, z: -2.0 * t * middle} if late else {"lifting": 1.0, z: 1.0}
-    lag, slow = 1j * w * family.lag, box.get("lag", Span(0.0, 0.0))
-    answer = 1.0 / (1.0 + lag * (1.0 + slow.middle))
-    lagging = {uncertain("lag", "rotors", 4, {"speed": 1.0}, by=0.0): -lag * slow.half * answer} if "lag" in box else {}
+    slow, given, by_rotor = box.get("lag", Span(0.0, 0.0)), dict[str, Any](), [""] * n
     net.add("arrived", 4, **arrived)
-    net.add("speed", 4, arrived=answer, **lagging)
-    net.add("given", 4, speed=rotors_response(w, family.delay, 0.0))
-    net.add("wrench", 4, given=1.0, command=-1.0)
+    for tau in np.unique(family.lags).tolist():
+        alike, speed = np.flatnonzero(family.lags == tau), f"speed_{tau}"
+        lag, lagging = 1j * w * tau, dict[str, Any]()
+        answer = 1.0 / (1.0 + lag * (1.0 + slow.middle))
+        if "lag" in box:
+            lagging[uncertain("lag", speed, 4, {speed: 1.0}, by=0.0)] = -lag * slow.half * answer
+        net.add(speed, 4, arrived=answer, **lagging)
+        net.add(f"given_{tau}", 4, **{speed: rotors_response(w, family.delay, 0.0)})
+        given[f"given_{tau}"] = family.effect[:, alike] @ family.spread[alike]
+        by_rotor = [f"given_{tau}" if i in alike else name for i, name in enumerate(by_rotor)]
+    net.add("wrench", 4, command=-1.0, **given)
     own = {name: np.eye(n)[None, :, int(name[6:]) - 1, None] for name in box if name.startswith("rotor.")}
-    spread = {name: {"given": unit.transpose(0, 2, 1) @ family.spread} for name, unit in own.items()}
+    spread = {
+        name: {by_rotor[int(name[6:]) - 1]: unit.transpose(0, 2, 1) @ family.spread} for name, unit in own.items()
+    }
     net.add("own", n, **{uncertain(name, "gain", 1, spread[name]): unit for name, unit in own.items()})
     order = [key for name in box for key in keys[name]]
     M = net.response([f"y_{key}" for key in order], [f"z_{key}" for key in order])
