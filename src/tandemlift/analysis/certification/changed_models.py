@@ -19,7 +19,7 @@ from tandemlift.core.errors import InputError
 from tandemlift.missions import Mission
 
 STEP, CLOSER, ACCURACY = 1.25, 1.04, 0.01  # factors between values that bracket a limit; width of the last bracket
-DECAYED = 0.8  # of the motion before: what decays, as in flight
+DECAYED = 0.5  # of the motion before: what has decayed
 LEAST, MOST = 0.02, 50.0  # of the nominal value, between which a limit is looked for
 
 

@@ -32,6 +32,7 @@ LARGE = 0.3  # rad/s and m/s: a motion that such a push or pull does not cause b
 SENSITIVE = 1e-4  # N: the threshold of a push while an arm holds the vehicle, which hides small oscillations else
 LOGGED = 0.005  # s
 LAGS = ("lag_up", "lag_down")
+ENDED = {*FAILURES, "landed"}  # outcomes of a hover that is lost: it lands by the alarm of its pilot only
 LOST, OSCILLATES, REFUSED = "lost", "oscillation", "refused"
 PAST = 1.05  # of a limit: the mission beside it flies beyond, where the oscillation grows
 
@@ -165,7 +166,7 @@ def sizes_of_motion(flight: Flight) -> tuple[Array, Array, Array]:
 
 def stability(flight: Flight) -> str:
     """The end of the stability of a kicked flight: "oscillation" or "lost"; "" if it is stable."""
-    if flight.outcome in FAILURES or flight.failure:
+    if flight.outcome in ENDED or flight.failure:
         return LOST
     first, last, most = sizes_of_motion(flight)
     return OSCILLATES if np.any((last > PERSISTS * first) & (last > SMALL * most)) or last.max() > LARGE else ""
@@ -173,7 +174,7 @@ def stability(flight: Flight) -> str:
 
 def stability_in_hand(flight: Flight) -> str:
     """The end of stability, as of `stability`, in an arm's hand, whose limits keep an oscillation from growing on."""
-    if flight.outcome in FAILURES or flight.failure:
+    if flight.outcome in ENDED or flight.failure:
         return LOST
     first, last, each = sizes_of_motion(flight)
     most = each.max()

@@ -171,7 +171,7 @@ def _most_of(effect: Array, most: tuple[float, ...], axis: int, way: int, held: 
     """The largest entry of a wrench, up (1) or down (-1), by rotors within limits that hold its other entries."""
     limits, weights = np.repeat(most, 4), np.where(np.arange(4) == axis, 1.0, HELD)
     top, none = set_of(limits.tolist()), set_of([0.0] * len(limits))
-    wanted = np.where(weights == 1.0, way * np.abs(effect) @ limits, held)
+    wanted = np.where(weights == 1.0, 2.0 * way * np.abs(effect) @ limits, held)
     problem = BoundedProblem(
         mixer_from(weighted_rows(effect, weights)), wrench_of(weights), wrench_of(wanted), none, top
     )
