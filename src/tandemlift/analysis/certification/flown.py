@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -198,10 +199,13 @@ def with_limits(tier: Tier, mission: Mission, fly: bool) -> Tier:
     for claim in tier.claims:
         if claim.limit is not None:
             trial, name = trial_of(mission, claim.parameter), f"limits/{claim.slug}.toml"
-            files[name] = format_toml(tables_of(_mission_beyond(trial, claim.limit)))
+            with suppress(InputError):  # a value beyond that no mission may have, such as a delay above 1 s
+                files[name] = format_toml(tables_of(_mission_beyond(trial, claim.limit)))
             flown = flown_limit(trial, claim.limit) if fly else None
             nominal = parameter(claim.parameter).nominal(mission)
-            claim = claim._replace(command=f"tandemlift run {name}", nominal=nominal, flown=flown)
+            claim = claim._replace(
+                command=f"tandemlift run {name}" if name in files else "", nominal=nominal, flown=flown
+            )
         claims.append(claim)
     return replace(tier, claims=tuple(claims), files=files)
 
