@@ -14,14 +14,14 @@ from random_missions.fleets import random_fleet
 from repository import ROOT
 
 import tandemlift as tl
-from tandemlift.analysis.certification.changed_models import GrowthOfHover, linear_limit
+from tandemlift.analysis.certification.changed_models import GrowthOfHover, linear_limit, with_body_of
 from tandemlift.analysis.certification.disk_margins import DiskMargin, disk_margin, disk_sizes
 from tandemlift.analysis.certification.flown import LimitTrial, flown_limit, stability, trial_of
 from tandemlift.analysis.certification.linear import changed_limits, linear_tier, loop_as_flown, rotor_limits
 from tandemlift.analysis.certification.parameters import parameter, with_keys
 from tandemlift.analysis.linearization.linearize import linearize
 from tandemlift.analysis.linearization.loop_margins import calm_mission, is_stable, largest, open_loop, single_loop
-from tandemlift.analysis.linearization.operating_point import flown_to, with_body_of
+from tandemlift.analysis.linearization.operating_point import flown_to
 from tandemlift.core.errors import InputError
 from tandemlift.missions import load_mission
 from tandemlift.parts.controllers.user_controller import load_controller

@@ -14,9 +14,11 @@ from tandemlift.analysis.certification.parameters import PARAMETERS, with_keys
 from tandemlift.analysis.linearization.linear_model import continuous
 from tandemlift.analysis.linearization.linearize import linearize
 from tandemlift.analysis.linearization.loop_margins import NO_KINK, ON_CIRCLE, RESTING, WAITS, calm_mission, motion_of
-from tandemlift.analysis.linearization.operating_point import flown_to, with_body_of
+from tandemlift.analysis.linearization.operating_point import OperatingPoint, flown_to
 from tandemlift.core.errors import InputError
+from tandemlift.core.types import flat
 from tandemlift.missions import Mission
+from tandemlift.simulation.plan import FlightPlan
 
 STEP, CLOSER, ACCURACY = 1.25, 1.04, 0.01  # factors between values that bracket a limit; width of the last bracket
 DECAYED = 0.5  # of the motion before: what has decayed
@@ -33,6 +35,14 @@ class LinearLimit(NamedTuple):
 
     value: float
     frequency: float
+
+
+def with_body_of(point: OperatingPoint, mission: Mission) -> OperatingPoint:
+    """A hover with the numbers of another mission whose body hovers alike, such as one of another inertia."""
+    plan = FlightPlan(mission)
+    numbers, flown = plan.start().numbers, len(flat(plan.model.flight_state))
+    numbers[:flown] = point.numbers[:flown]
+    return point._replace(plan=plan, numbers=numbers)
 
 
 class GrowthOfHover:

@@ -94,14 +94,6 @@ def with_mean_lag(point: OperatingPoint) -> OperatingPoint:
     return point._replace(numbers=numbers)
 
 
-def with_body_of(point: OperatingPoint, mission: Mission) -> OperatingPoint:
-    """A hover with the numbers of another mission whose body hovers alike, such as one of another inertia."""
-    plan = FlightPlan(mission)
-    numbers, flown = plan.start().numbers, len(flat(plan.model.flight_state))
-    numbers[:flown] = point.numbers[:flown]
-    return point._replace(plan=plan, numbers=numbers)
-
-
 def step_at(m: MissionTable, at: float) -> int:
     """The number of the step that begins at a time.
 

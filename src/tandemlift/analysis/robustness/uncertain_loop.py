@@ -141,9 +141,7 @@ def uncertain_loop(family: Family, box: Mapping[str, Span], *, late: bool = True
         by_rotor = [f"given_{tau}" if i in alike else name for i, name in enumerate(by_rotor)]
     net.add("wrench", 4, command=-1.0, **given)
     own = {name: np.eye(n)[None, :, int(name[6:]) - 1, None] for name in box if name.startswith("rotor.")}
-    spread = {
-        name: {by_rotor[int(name[6:]) - 1]: unit.transpose(0, 2, 1) @ family.spread} for name, unit in own.items()
-    }
+    spread = {name: {by_rotor[int(name[6:]) - 1]: u.transpose(0, 2, 1) @ family.spread} for name, u in own.items()}
     net.add("own", n, **{uncertain(name, "gain", 1, spread[name]): unit for name, unit in own.items()})
     order = [key for name in box for key in keys[name]]
     M = net.response([f"y_{key}" for key in order], [f"z_{key}" for key in order])
