@@ -3,11 +3,8 @@
 The mission is flown to a hover after its tare, with rotors without delay and lag, and without noise, wind, pushes and
 person. There the closed step is linearized with offsets d of the thrusts as inputs. The resulting wrench is w = S d, so
 the loop is L = S⁻¹ − I (4 × 4: thrust, roll, pitch, yaw). The real rotors multiply it: L H with
-H = E diag(e^(−jωT)/(1 + jωτᵢ)) A, A the allocation, E the rotors' effect, E A = I, and τᵢ of each rotor the mean of
-its lags up and down. Lags that differ couple the axes.
-
-Delay and lags change the number of unstable poles by the winding of det(I + L H)/det(I + L) about 0; without
-them, the poles are the eigenvalues of the model.
+H = E diag(e^(−jωT)/(1 + jωτᵢ)) A, A the allocation, E the rotors' effect, E A = I, τᵢ each rotor's mean lag.
+They change the number of unstable poles by the winding of det(I + L H)/det(I + L); without, poles are eigenvalues.
 """
 
 from __future__ import annotations
@@ -26,7 +23,6 @@ from tandemlift.analysis.linearization.linearize import linearize
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, check, tables_of
-from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.hover import HoverFacts
 
 AXES = ("z", "roll", "pitch", "yaw")
@@ -150,16 +146,16 @@ def open_loop(mission: Mission) -> OpenLoop:
         model = linearize(calm, at, inputs=["thrust_offsets"], outputs=["rotor_thrusts"], kink_tolerance=NO_KINK)
         if is_calm(model):
             break
-    vehicle, few = Vehicle.from_settings(calm.vehicle), model.connected()
+    few, rotors = model.connected(), rotors_of(mission.hover)
     radius = float(np.abs(np.linalg.eigvals(few.A)).max())
-    in_axes = replace(few, B=few.B @ vehicle.allocation(calm.allocation.weights), C=vehicle.effect @ few.C)
-    in_axes = replace(in_axes, D=vehicle.effect @ few.D @ vehicle.allocation(calm.allocation.weights))
+    A, E = rotors.allocation, rotors.effect
+    in_axes = replace(few, B=few.B @ A, C=E @ few.C, D=E @ few.D @ A)
     # short of the Nyquist frequency, beyond which samples tell nothing of what happens between them
     w = np.geomspace(LOWEST, min(HIGHEST, 0.9 * math.pi / model.step), POINTS)
     held, eye = step_over_sample(w, calm.mission.step, model.step), np.eye(4)
     near = frequency_response(in_axes, w / (2.0 * math.pi)) - eye
     S: NDArray[np.complexfloating] = np.asarray(eye + near * held[:, None, None], complex)
-    return OpenLoop(w, np.linalg.inv(S) - eye, radius <= 1.0 + ON_CIRCLE and is_calm(model), rotors_of(mission.hover))
+    return OpenLoop(w, np.linalg.inv(S) - eye, radius <= 1.0 + ON_CIRCLE and is_calm(model), rotors)
 
 
 def step_over_sample(w: Array, step: float, sample: float) -> NDArray[np.complexfloating]:
@@ -203,9 +199,8 @@ def is_stable(loop: OpenLoop, delay: float, lag: float) -> bool:
     if not loop.stable:
         return False
     w, L = refined(loop.w, loop.L)
-    eye = np.eye(4)
-    ratio = np.linalg.det(eye + L @ loop.rotors.wrench(w, delay, lag)) / np.linalg.det(eye + L)
-    turned = np.unwrap(np.angle(ratio))
+    eye, H = np.eye(4), loop.rotors.wrench(w, delay, lag)
+    turned = np.unwrap(np.angle(np.linalg.det(eye + L @ H) / np.linalg.det(eye + L)))
     # H(0) = I, so that poles become unstable in pairs, off the real axis: each pair turns the ratio by 2π
     return bool(abs(turned[-1] - turned[0]) < math.pi)
 

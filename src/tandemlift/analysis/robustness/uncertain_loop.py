@@ -63,6 +63,10 @@ class Network:
         self.at[name], self.size = slice(self.size, self.size + size), self.size + size
         self.terms += [(name, other, np.asarray(factor)) for other, factor in terms.items()]
 
+    def width(self, names: Sequence[str]) -> int:
+        """The numbers of signals."""
+        return sum(self.at[name].stop - self.at[name].start for name in names)
+
     def response(self, rows: Sequence[str], columns: Sequence[str]) -> Complex:
         """The response of signals to what is added to others (F, r, c)."""
         P = np.zeros((self.count, self.size, self.size), dtype=complex)
@@ -127,26 +131,23 @@ def uncertain_loop(family: Family, box: Mapping[str, Span], *, late: bool = True
         z = uncertain("delay", "rotors", 4, arrived, by=-t if late else 0.0)
         middle = rotors_response(w, box["delay"].middle, 0.0)
         arrived = {"lifting": middle, z: -2.0 * t * middle} if late else {"lifting": 1.0, z: 1.0}
-    slow, given, by_rotor = box.get("lag", Span(0.0, 0.0)), dict[str, Any](), [""] * n
+    slow, lags = box.get("lag", Span(0.0, 0.0)), family.lags.tolist()
     net.add("arrived", 4, **arrived)
-    for tau in np.unique(family.lags).tolist():
-        alike, speed = np.flatnonzero(family.lags == tau), f"speed_{tau}"
-        lag, lagging = 1j * w * tau, dict[str, Any]()
+    for tau in sorted(set(lags)):
+        speed, lag = f"speed_{tau}", 1j * w * tau
         answer = 1.0 / (1.0 + lag * (1.0 + slow.middle))
-        if "lag" in box:
-            lagging[uncertain("lag", speed, 4, {speed: 1.0}, by=0.0)] = -lag * slow.half * answer
-        net.add(speed, 4, arrived=answer, **lagging)
+        lagging = [uncertain("lag", speed, 4, {speed: 1.0}, by=0.0)] if "lag" in box else []
+        net.add(speed, 4, arrived=answer, **dict.fromkeys(lagging, -lag * slow.half * answer))
         net.add(f"given_{tau}", 4, **{speed: rotors_response(w, family.delay, 0.0)})
-        given[f"given_{tau}"] = family.effect[:, alike] @ family.spread[alike]
-        by_rotor = [f"given_{tau}" if i in alike else name for i, name in enumerate(by_rotor)]
-    net.add("wrench", 4, command=-1.0, **given)
-    own = {name: np.eye(n)[None, :, int(name[6:]) - 1, None] for name in box if name.startswith("rotor.")}
-    spread = {name: {by_rotor[int(name[6:]) - 1]: u.transpose(0, 2, 1) @ family.spread} for name, u in own.items()}
-    net.add("own", n, **{uncertain(name, "gain", 1, spread[name]): unit for name, unit in own.items()})
+    net.add("wrench", 4, command=-1.0, **{f"given_{tau}": family.share(tau) for tau in set(lags)})
+    own = {name: int(name[6:]) - 1 for name in box if name.startswith("rotor.")}
+    spread = {name: {f"given_{lags[i]}": family.spread[None, i : i + 1]} for name, i in own.items()}
+    net.add(
+        "own", n, **{uncertain(name, "gain", 1, spread[name]): np.eye(n)[None, :, i, None] for name, i in own.items()}
+    )
     order = [key for name in box for key in keys[name]]
     M = net.response([f"y_{key}" for key in order], [f"z_{key}" for key in order])
-    sizes = [sum(net.at[key].stop - net.at[key].start for key in keys[name]) for name in box]
-    return UncertainLoop(M, tuple(DeltaBlock(size, real=True) for size in sizes))
+    return UncertainLoop(M, tuple(DeltaBlock(net.width(keys[name]), real=True) for name in box))
 
 
 class DeviatingLoop:

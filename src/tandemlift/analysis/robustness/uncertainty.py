@@ -185,6 +185,10 @@ class Family(NamedTuple):
     lags: Array
     delay: float
 
+    def share(self, lag: float) -> Array:
+        """(4, 4): the wrench of the rotors with a lag over the commanded one."""
+        return np.asarray(self.effect[:, self.lags == lag] @ self.spread[self.lags == lag], float)
+
 
 class Hovers(NamedTuple):
     """Models of a mission's hover with ideal rotors.
