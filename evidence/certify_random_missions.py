@@ -1,9 +1,10 @@
 """Predicted and flown limits of random missions: prints the table of the validation.
 
 python evidence/certify_random_missions.py [--missions 500] [--jobs 16] [--minutes 8] [--engine mujoco]
-    [--parameters delay,mass] [--out FILE.csv]
+    [--parameters delay,mass] [--unlike] [--out FILE.csv]
 
-Each mission is one of `BASES` with gains, filters, lags, delays and the admittance drawn around its own values. For
+Each mission is one of `BASES` with gains, filters, lags, delays and the admittance drawn around its own values; with
+`--unlike`, `iris` with a vehicle of two to four unlike quadrotors (`random_missions/fleets.py`). For
 each parameter the certificate predicts a limit from linear models, and flights find it by bisection, without a model.
 The inertia about an axis stands for the gain of that axis, which no key of a mission changes alone. Of mass and of
 each inertia, the nearer of the least and the largest limit is flown.
@@ -27,6 +28,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from random_missions.fleets import random_fleet
 
 import tandemlift as tl
 from tandemlift.analysis.certification.changed_models import linear_limit
@@ -102,8 +104,10 @@ def drawn_changes(number: int, seed: int) -> tuple[str, dict[str, Any]]:
     return base, changes
 
 
-def random_mission(number: int, seed: int) -> tuple[str, Mission] | None:
-    """(base, mission) of a number; None if the drawn mission is refused."""
+def random_mission(number: int, seed: int, unlike: bool = False) -> tuple[str, Mission] | None:
+    """(base, mission) of a number, with unlike quadrotors or not; None if the drawn mission is refused."""
+    if unlike:
+        return "unlike", random_fleet(number, seed)
     base, changes = drawn_changes(number, seed)
     try:
         return base, tl.load_mission(base, changes)
@@ -136,21 +140,24 @@ def predictions(mission: Mission, chosen: tuple[str, ...]) -> Iterator[Predictio
 def _changed_predictions(mission: Mission, names: tuple[str, ...]) -> Iterator[Prediction]:
     """The limits of mass and inertias by the linear tier, whose search begins where the structured tier's model ends.
 
-    A mass that the rotors do not lift is left out.
+    The largest mass of unlike quadrotors may be the one that they lift; of others, it is left out.
     """
     if not names:
         return
     widths = {UNCERTAIN[name]: WIDTHS[name] for name in names}
     hovers = hovers_of(mission, widths)
     deviations = DeviatingLoop(family_at(hovers, hovers.w), widths)
-    lifted = mission.hover.lift / mission.hover.vehicle.weight
+    lifted = mission.hover.level_lift / mission.hover.vehicle.weight
+    unlike = len({(q.mass, q.lag_up) for q in mission.vehicle.quadrotors}) > 1
     for name in names:
         key, nearest = UNCERTAIN[name], math.inf
         for sign in (-1.0, 1.0):
             near = 1.0 + sign * widths[key] * deviations.limit({key: sign}, FARTHEST[sign] / widths[key])
             if 0.0 < near < (lifted if name == "mass" else math.inf):
                 nearest = min(nearest, near, key=lambda x: abs(math.log(x)))
-        if nearest < math.inf:
+        if name == "mass" and unlike and lifted < max(nearest, 1.0 / nearest):
+            yield Prediction(name, "largest", lifted, math.nan)
+        elif nearest < math.inf:
             found = linear_limit(mission, name, growing=nearest > 1.0, near=nearest)
             if 0.0 < found.value < (lifted if name == "mass" else math.inf):
                 yield Prediction(name, "largest" if nearest > 1.0 else "least", found.value, found.frequency)
@@ -186,10 +193,10 @@ def flown_one_by_one(trial: LimitTrial, predicted: float, engine: str) -> FlownL
     return FlownLimit(low, high, *ends[high])
 
 
-def rows_of(number: int, seed: int, chosen: tuple[str, ...], engine: str) -> list[dict[str, Any]]:
+def rows_of(number: int, seed: int, chosen: tuple[str, ...], engine: str, unlike: bool) -> list[dict[str, Any]]:
     """The rows of a mission, one for each limit; one without numbers if there is none."""
     warnings.simplefilter("ignore", tl.FlightWarning)
-    began, drawn, rows = time.process_time(), random_mission(number, seed), list[dict[str, Any]]()
+    began, drawn, rows = time.process_time(), random_mission(number, seed, unlike), list[dict[str, Any]]()
     if drawn is None:
         return [{"mission": number, "engine": engine, "ended": REFUSED}]
     base, mission = drawn
@@ -234,6 +241,7 @@ def compute(given: argparse.Namespace, numbers: list[int]) -> None:
     """Append the rows of missions to the file, as they come, until the time is over."""
     new, until = not given.out.exists(), time.monotonic() + 60.0 * given.minutes
     rows = partial(rows_of, seed=given.seed, chosen=tuple(given.parameters.split(",")), engine=given.engine)
+    rows = partial(rows, unlike=given.unlike)
     with given.out.open("a", encoding="utf-8", newline="") as file, multiprocessing.Pool(given.jobs) as pool:
         writer = csv.DictWriter(file, COLUMNS, restval="", lineterminator="\n")
         if new:
@@ -256,6 +264,7 @@ def main() -> None:
     parser.add_argument("--minutes", type=float, default=math.inf, help="after which no row is waited for")
     parser.add_argument("--engine", default="compiled", choices=("compiled", "mujoco"))
     parser.add_argument("--parameters", default=",".join(PARAMETERS))
+    parser.add_argument("--unlike", action="store_true", help="vehicles of unlike quadrotors")
     parser.add_argument("--out", type=Path, default=Path("out/certified.csv"))
     given = parser.parse_args()
     given.out.parent.mkdir(parents=True, exist_ok=True)

@@ -6,6 +6,7 @@ from pathlib import Path
 import certify_random_missions
 import pytest
 from certify_random_missions import flown_one_by_one, table
+from random_missions.fleets import random_fleet
 
 from tandemlift.analysis.certification.flown import LimitTrial
 
@@ -42,6 +43,18 @@ def test_the_table_counts_limits_of_either_side_by_how_early_flights_oscillate()
     assert "| compiled | mass | 2 | 50.0 % | 0.800, 0.925, 1.050 | 0 |" in text
     assert "| compiled | delay | 1 | 0.0 % | 0.700, 0.700, 0.700 | 1 |" in text
     assert "2 missions. Other ends: unstable hover 1." in text
+
+
+def test_a_random_fleet_hovers_with_quadrotors_that_differ_in_mass_arm_lag_and_thrust():
+    for number in range(3):
+        mission = random_fleet(number, 52)
+        fleet, hover = mission.vehicle.quadrotors, mission.hover
+        assert len(fleet) == 2 + number
+        for values in ([q.mass for q in fleet], [q.arm for q in fleet], hover.lags, hover.most.tolist()):
+            assert len(set(values)) == len(fleet)
+        assert (hover.thrusts > 0.0).all()
+        assert hover.share < 0.65
+        assert random_fleet(number, 52) == mission
 
 
 def test_every_script_of_the_evidence_finds_what_it_imports():

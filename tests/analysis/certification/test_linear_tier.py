@@ -10,14 +10,18 @@ import control
 import numpy as np
 import pytest
 from listings import PLAIN
+from random_missions.fleets import random_fleet
 from repository import ROOT
 
 import tandemlift as tl
-from tandemlift.analysis.certification.changed_models import linear_limit
+from tandemlift.analysis.certification.changed_models import GrowthOfHover, linear_limit, with_body_of
 from tandemlift.analysis.certification.disk_margins import DiskMargin, disk_margin, disk_sizes
-from tandemlift.analysis.certification.flown import LimitTrial, flown_limit, trial_of
-from tandemlift.analysis.certification.linear import changed_limits, linear_tier, loop_as_flown
-from tandemlift.analysis.linearization.loop_margins import is_stable, largest, open_loop, single_loop
+from tandemlift.analysis.certification.flown import LimitTrial, flown_limit, stability, trial_of
+from tandemlift.analysis.certification.linear import changed_limits, linear_tier, loop_as_flown, rotor_limits
+from tandemlift.analysis.certification.parameters import parameter, with_keys
+from tandemlift.analysis.linearization.linearize import linearize
+from tandemlift.analysis.linearization.loop_margins import calm_mission, is_stable, largest, open_loop, single_loop
+from tandemlift.analysis.linearization.operating_point import flown_to
 from tandemlift.core.errors import InputError
 from tandemlift.missions import load_mission
 from tandemlift.parts.controllers.user_controller import load_controller
@@ -111,6 +115,50 @@ def test_the_mission_beside_a_limit_oscillates_when_it_is_flown(tmp_path):
     signs = late > late.mean()
     turns = np.count_nonzero(signs[:-1] != signs[1:]) * math.pi / 3.0
     assert turns == pytest.approx(claim_of("delay limit").frequency, rel=0.1)
+
+
+def test_every_mission_beside_a_limit_is_beyond_it_when_it_is_flown(tmp_path):
+    write_certificate(certificate(), tmp_path)
+    files = sorted((tmp_path / "limits").glob("*.toml"))
+    ends = {path.stem: stability(flight) for path, flight in zip(files, tl.fly_many(files), strict=True)}
+    assert len(ends) == 9
+    assert set(ends) >= {"delay-limit", "lag-limit", "largest-mass", "least-mass"}
+    assert all(ends.values()), ends
+    assert tl.fly(tmp_path / "limits" / "largest-mass.toml").outcome == "not-lifted"
+
+
+# quadrotors that differ
+
+
+UNLIKE = {
+    f"vehicle.quadrotors.{i}.{key}": lag for i, lag in enumerate((0.008, 0.045)) for key in ("lag_up", "lag_down")
+}
+
+
+def test_limits_of_rotors_with_lags_of_their_own_are_those_of_the_closed_loop_with_them():
+    """The eigenvalues of the step with the real rotors in it, which no loop is cut for."""
+    mission = load_mission("iris", UNLIKE)
+    loop, hover = loop_as_flown(mission), calm_mission(mission, slow=1.0)
+    assert loop.open.rotors.shares == pytest.approx(np.repeat([8.0, 45.0], 4) / 26.5)
+    for claim in rotor_limits(loop):
+        p = parameter(claim.parameter)
+        for factor, stable in ((0.97, True), (1.03, False)):
+            calm, at = calm_mission(with_keys(mission, p.keys(mission, factor * claim.limit)), slow=1.0)
+            point = flown_to(calm, at) if p.name == "delay" else with_body_of(flown_to(*hover), calm)
+            model = linearize(point, inputs=["thrust_offsets"], outputs=["rotor_thrusts"], kink_tolerance=-1.0)
+            radius = np.abs(np.linalg.eigvals(model.connected().A)).max()
+            assert (radius <= 1.0 + 1e-6) == stable, (claim.name, factor)
+    slower = with_keys(mission, parameter("lag").keys(mission, 0.053)).vehicle.quadrotors
+    assert [q.lag_up for q in slower] == pytest.approx([0.016, 0.09])
+
+
+def test_a_hover_that_the_floor_throws_off_or_that_settles_slowly_is_not_unstable():
+    mission = random_fleet(1, 52)
+    growth = GrowthOfHover(mission, "pitch inertia")
+    assert growth(4.6) is None
+    assert growth(6.0).real > 0.0
+    trial = trial_of(mission, "pitch inertia")
+    assert trial.ended(tl.fly(trial.mission(6.0))) == "lost"  # landed by the alarm of the pilot
 
 
 @pytest.mark.parametrize("factor", [0.9, 1.08], ids=["beyond it", "before it"])

@@ -85,15 +85,13 @@ def test_the_axis_that_oscillates_is_named_with_its_frequency(axis):
 @pytest.mark.parametrize("near", [None, 0.97, 1.0, 1.03, 1.3, 0.75])
 @pytest.mark.parametrize("limit", [0.3, 0.6, 1.6, 7.0])
 def test_a_limit_by_linear_models_is_found_on_its_side_from_wherever_the_search_begins(limit, near, monkeypatch):
-    monkeypatch.setattr(changed_models, "calm_mission", lambda mission, lag: (mission, 5.0))
     grows, tried = limit > 1.0, []
 
-    def growth(calm, at, changes):
-        (value,) = changes.values()
+    def growth(value):
         tried.append(value)
         return 0.1 + 6j if (value > limit) == grows else None
 
-    monkeypatch.setattr(changed_models, "fastest_growth", growth)
+    monkeypatch.setattr(changed_models, "GrowthOfHover", lambda mission, name: growth)
     found = changed_models.linear_limit(
         load_mission("iris"), "mass", growing=grows, near=None if near is None else near * limit
     )
@@ -105,8 +103,7 @@ def test_a_limit_by_linear_models_is_found_on_its_side_from_wherever_the_search_
 @pytest.mark.parametrize(("growing", "value"), [(True, math.inf), (False, 0.0)])
 def test_where_nothing_grows_there_is_no_limit_by_linear_models(growing, value, monkeypatch):
     tried = []
-    monkeypatch.setattr(changed_models, "calm_mission", lambda mission, lag: (mission, 5.0))
-    monkeypatch.setattr(changed_models, "fastest_growth", lambda calm, at, keys: tried.extend(keys.values()))
+    monkeypatch.setattr(changed_models, "GrowthOfHover", lambda mission, name: tried.append)
     assert changed_models.linear_limit(load_mission("iris"), "mass", growing=growing) == (value, 0.0)
     assert max(tried) < 50.0 if growing else min(tried) > 0.02
     assert max(tried) > 40.0 if growing else min(tried) < 0.025

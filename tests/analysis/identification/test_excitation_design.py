@@ -143,7 +143,7 @@ def test_the_information_of_the_lines_is_that_of_differences_of_flights(design):
     steady = e.duration - 3.0 * e.ramp
     lines = [line for line in e.lines if line.axis not in "xy"]
     f = np.array(sorted(line.frequency for line in lines))
-    hover, at = calm_mission(m, lag=m.hover.lag)
+    hover, at = calm_mission(m, slow=1.0)
     s = 2j * np.pi * f
     rotor = np.exp(-s * (m.actuators.delay + m.mission.step)) / (1.0 + s * m.hover.lag)  # held, and read a step later
     lever = np.array(hover.hover.vehicle.payload_center)

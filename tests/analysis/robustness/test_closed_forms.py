@@ -42,7 +42,8 @@ def mixed(*shape):
 # the uncertain loop
 
 FAMILY_W = np.array([0.3, 2.0, 25.0])
-MIXED = Family(FAMILY_W, mixed(3, 7, 4 + N + 3), {}, RNG.normal(size=(N, 4)), 0.02, 0.01)
+LAGS = np.repeat([0.02, 0.035], 4)
+MIXED = Family(FAMILY_W, mixed(3, 7, 4 + N + 3), {}, RNG.normal(size=(N, 4)), RNG.normal(size=(4, N)), LAGS, 0.01)
 TRIM = Trim(mixed(3, 7, 2), mixed(3, 2, 4 + N + 3), mixed(3, 2, 2))
 BOX = {"inertia_x": 0.2, "inertia_z": 0.3, "thrust": 0.1, "lag": 0.4, "delay": 0.02, "rotor.2": 0.3, "rotor.8": 0.2}
 
@@ -55,13 +56,13 @@ def written_out(family, k, p, wide):
         inner = np.eye(trim.V.shape[1]) - p.get(name, 0.0) * trim.V[k]
         H = H + p.get(name, 0.0) * trim.U[k] @ np.linalg.inv(inner) @ trim.W[k]
         whole *= np.linalg.det(inner)
-    slower = 1.0 + s * family.lag * (1.0 + p.get("lag", 0.0))
-    g = (1.0 + p.get("thrust", 0.0)) * np.exp(-s * (family.delay + p.get("delay", 0.0))) / slower
+    slower = 1.0 + s * family.lags * (1.0 + p.get("lag", 0.0))
+    g = np.diag((1.0 + p.get("thrust", 0.0)) * np.exp(-s * (family.delay + p.get("delay", 0.0))) / slower)
     gains = np.diag([p.get(f"rotor.{i + 1}", 0.0) for i in range(N)])
     inertia = np.diag([p.get(f"inertia_{axis}", 0.0) for axis in "xyz"])
-    by_command = np.vstack([(g - 1.0) * np.eye(4), g * gains @ family.spread, np.zeros((3, 4))])
+    by_command = np.vstack([family.effect @ g @ family.spread - np.eye(4), gains @ g @ family.spread, np.zeros((3, 4))])
     by_turning = np.vstack([np.zeros((4 + N, 3)), -inertia])
-    whole *= np.linalg.det(np.eye(7) - H @ np.hstack([by_command, by_turning])) * slower**4
+    whole *= np.linalg.det(np.eye(7) - H @ np.hstack([by_command, by_turning])) * np.prod(np.unique(slower)) ** 4
     if wide:  # e^(−jωp) is a fraction: 1 + j tan(ω half/2) δ below
         tangent = math.tan(0.5 * family.w[k] * (p["delay"] - wide))
         whole *= (1.0 + 1j * tangent) ** 4
@@ -105,7 +106,7 @@ def beam(w):
     for column in (WRENCH, MOMENT):
         H[:, ROLL, column], H[:, 4, column] = -G / (1.0 + G), 1.0 / (1.0 + G)
     H[:, 5, MOMENT + 1] = H[:, 6, MOMENT + 2] = 1.0  # about the other axes it turns freely
-    return Family(w, H, {}, np.full((N, 4), 0.25), LAG, 0.0)
+    return Family(w, H, {}, np.vstack([0.5 * np.eye(4)] * 2), np.hstack([np.eye(4)] * 2), np.full(N, LAG), 0.0)
 
 
 def rolls(widths=WIDTHS):
@@ -244,4 +245,5 @@ def test_the_trims_of_a_family_pass_through_the_hovers_that_were_linearized(monk
             added = p * U @ np.linalg.inv(np.eye(V.shape[1]) - p * V) @ W
             assert axis(LOOPS["calm"]) + added == pytest.approx(axis(LOOPS[model]), abs=1e-9)
     q = mission.vehicle.quadrotors[0]
-    assert (family.lag, family.delay) == pytest.approx((0.5 * (q.lag_up + q.lag_down), mission.actuators.delay))
+    assert family.lags == pytest.approx(np.full(8, 0.5 * (q.lag_up + q.lag_down)))
+    assert family.delay == mission.actuators.delay

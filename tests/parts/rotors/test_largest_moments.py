@@ -4,11 +4,12 @@ import re
 
 import numpy as np
 import pytest
+from random_missions.fleets import random_fleet
 from repository import ROOT
 from scipy.optimize import linprog
 
 import tandemlift as tl
-from tandemlift.missions import load_mission
+from tandemlift.missions import check, load_mission, tables_of
 from tandemlift.missions.flight_checks import flight_checks
 from tandemlift.parts.pilot.controller_response import first_command
 
@@ -38,6 +39,19 @@ def test_the_largest_moments_in_hover_are_those_of_linear_programs(mission):
     hover = load_mission(mission, CASES[mission]).hover
     assert hover.largest_moments == pytest.approx([by_linear_program(hover, axis) for axis in range(3)], rel=1e-6)
     assert (hover.authority <= hover.largest_moments * (1.0 + 1e-6)).all()
+
+
+@pytest.mark.parametrize("number", range(3))
+def test_the_most_that_unlike_quadrotors_lift_without_turning_is_that_of_a_linear_program(number):
+    tables = tables_of(random_fleet(number, 52))
+    tables["plant"] |= {"center_of_mass_offset": [0.02, -0.03, 0.01], "thrust_scale": 0.95}
+    hover = check(tables, "unlike", quiet=True).hover
+    effect, most = hover.vehicle.effect.copy(), np.repeat(hover.most, 4)
+    effect[1] += 0.03 * effect[0]  # (r − c) × F about the real centre of mass c
+    effect[2] += 0.02 * effect[0]
+    answer = linprog(-effect[0], A_eq=effect[1:], b_eq=np.zeros(3), bounds=[(0.0, f) for f in most])
+    assert hover.level_lift == pytest.approx(-answer.fun, rel=1e-5)
+    assert hover.level_lift < 0.99 * hover.lift
 
 
 def test_no_moment_is_left_where_full_thrust_only_just_carries_the_weight():

@@ -6,24 +6,22 @@ A change of mass or inertia changes what the joint sensors feel, so that it is m
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from tandemlift.analysis.certification.parameters import PARAMETERS, with_keys
 from tandemlift.analysis.linearization.linear_model import continuous
 from tandemlift.analysis.linearization.linearize import linearize
-from tandemlift.analysis.linearization.loop_margins import (
-    NO_KINK,
-    ON_CIRCLE,
-    calm_mission,
-    is_calm,
-    rotor_delay_and_lag,
-)
+from tandemlift.analysis.linearization.loop_margins import NO_KINK, ON_CIRCLE, RESTING, WAITS, calm_mission, motion_of
+from tandemlift.analysis.linearization.operating_point import OperatingPoint, flown_to
 from tandemlift.core.errors import InputError
+from tandemlift.core.types import flat
 from tandemlift.missions import Mission
+from tandemlift.simulation.plan import FlightPlan
 
 STEP, CLOSER, ACCURACY = 1.25, 1.04, 0.01  # factors between values that bracket a limit; width of the last bracket
+DECAYED = 0.5  # of the motion before: what has decayed
 LEAST, MOST = 0.02, 50.0  # of the nominal value, between which a limit is looked for
 
 
@@ -39,23 +37,53 @@ class LinearLimit(NamedTuple):
     frequency: float
 
 
-def fastest_growth(calm: Mission, at: float, changes: dict[str, Any]) -> complex | None:
-    """The eigenvalue [1/s] of a hover, calm at a time [s], that grows fastest with changes by key; None if none grows.
+def with_body_of(point: OperatingPoint, mission: Mission) -> OperatingPoint:
+    """A hover with the numbers of another mission whose body hovers alike, such as one of another inertia."""
+    plan = FlightPlan(mission)
+    numbers, flown = plan.start().numbers, len(flat(plan.model.flight_state))
+    numbers[:flown] = point.numbers[:flown]
+    return point._replace(plan=plan, numbers=numbers)
 
-    A hover that cannot be flown to grows, by an infinite rate.
+
+class GrowthOfHover:
+    """The growth of deviations from a mission's hover with its real rotors, by the value of a parameter of its body.
+
+    Raises:
+        InputError: the mission cannot hover calmly.
     """
-    try:
-        changed = with_keys(calm, changes)
-        model = linearize(changed, at, inputs=["thrust_offsets"], outputs=["rotor_thrusts"], kink_tolerance=NO_KINK)
-    except InputError:
-        return complex(math.inf)
-    z = np.linalg.eigvals(model.connected().A)
-    if not len(z):  # rotors at their limits: no thrust moves anything
-        return complex(math.inf)
-    worst = z[np.argmax(np.abs(z))]
-    if abs(worst) > 1.0 + ON_CIRCLE:
-        return continuous(complex(worst), model.step)
-    return None if is_calm(model) else complex(math.inf)
+
+    def __init__(self, mission: Mission, name: str) -> None:
+        self._mission, self._parameter = mission, PARAMETERS[name]
+        self._calm, self._last = calm_mission(mission, slow=1.0, wait=WAITS[-1])
+        # an inertia does not change the hover, which is flown to once; from the floor, a body of another inertia may
+        # be thrown off a hover that is stable
+        self._hover = flown_to(self._calm, self._last) if name.endswith("inertia") else None
+
+    def __call__(self, value: float) -> complex | None:
+        """The eigenvalue [1/s] that grows fastest; None if none grows.
+
+        A hover that still moves is looked at again later: one that settles slowly is stable. A motion that does not
+        decay, and a hover that cannot be flown to, grow; by an infinite rate if no eigenvalue does.
+        """
+        found, before = complex(math.inf), math.inf
+        for wait in WAITS:
+            try:
+                changed = with_keys(self._calm, self._parameter.keys(self._mission, value))
+                at = self._last - WAITS[-1] + wait
+                point = flown_to(changed, at) if self._hover is None else with_body_of(self._hover, changed)
+                model = linearize(point, inputs=["thrust_offsets"], outputs=["rotor_thrusts"], kink_tolerance=NO_KINK)
+            except InputError:
+                return found
+            z, motion = np.linalg.eigvals(model.connected().A), motion_of(model)
+            if not len(z):  # rotors at their limits: no thrust moves anything
+                return complex(math.inf)
+            worst = z[np.argmax(np.abs(z))]
+            if grows := abs(worst) > 1.0 + ON_CIRCLE:
+                found = continuous(complex(worst), model.step)
+            if motion < RESTING or (not grows and motion < DECAYED * before < math.inf):
+                return found if grows else None
+            before = motion
+        return found
 
 
 def linear_limit(mission: Mission, name: str, *, growing: bool, near: float | None = None) -> LinearLimit:
@@ -70,13 +98,8 @@ def linear_limit(mission: Mission, name: str, *, growing: bool, near: float | No
     Raises:
         InputError: no parameter has this name, or the mission cannot hover calmly.
     """
-    p, step = PARAMETERS[name], STEP if near is None else CLOSER
-    nominal = p.nominal(mission)
-    calm, at = calm_mission(mission, lag=rotor_delay_and_lag(mission.hover)[1])
-
-    def growth(value: float) -> complex | None:
-        return fastest_growth(calm, at, p.keys(mission, value))
-
+    step = STEP if near is None else CLOSER
+    nominal, growth = PARAMETERS[name].nominal(mission), GrowthOfHover(mission, name)
     factor = step if growing else 1.0 / step
     stable, value = nominal, nominal * factor if near is None else near
     s = growth(value)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -15,7 +16,7 @@ import numpy as np
 
 from tandemlift.analysis.certification.parameters import ARM, parameter, with_keys
 from tandemlift.analysis.linearization.claims import Claim, FlownLimit, Tier
-from tandemlift.analysis.linearization.loop_margins import UNROUNDED, calm_mission, rotor_delay_and_lag
+from tandemlift.analysis.linearization.loop_margins import UNROUNDED, calm_mission
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array
@@ -31,6 +32,8 @@ PULL = 0.02  # N along x and y, by which an arm begins to pull
 LARGE = 0.3  # rad/s and m/s: a motion that such a push or pull does not cause by itself
 SENSITIVE = 1e-4  # N: the threshold of a push while an arm holds the vehicle, which hides small oscillations else
 LOGGED = 0.005  # s
+LAGS = ("lag_up", "lag_down")
+ENDED = {*FAILURES, "landed"}  # outcomes of a hover that is lost: it lands by the alarm of its pilot only
 LOST, OSCILLATES, REFUSED = "lost", "oscillation", "refused"
 PAST = 1.05  # of a limit: the mission beside it flies beyond, where the oscillation grows
 
@@ -117,10 +120,9 @@ def hover_as_flown(mission: Mission) -> tuple[Mission, float]:
     calm, at = calm_mission(mission)
     own, t = tables_of(mission), tables_of(calm)
     if mission.actuators.model == "rotors":  # ideal ones have no limit, lag or delay
-        _, lag = rotor_delay_and_lag(mission.hover)
         t["actuators"] = own["actuators"]
-        for q, original in zip(t["vehicle"]["quadrotors"], own["vehicle"]["quadrotors"], strict=True):
-            q |= {"max_speed": original["max_speed"], "lag_up": lag, "lag_down": lag}
+        for q, real in zip(t["vehicle"]["quadrotors"], own["vehicle"]["quadrotors"], strict=True):
+            q |= {"max_speed": real["max_speed"]} | dict.fromkeys(LAGS, 0.5 * (real["lag_up"] + real["lag_down"]))
     return check(merge(t, {"sensors": UNROUNDED}), mission.mission.name, quiet=True), at
 
 
@@ -165,7 +167,7 @@ def sizes_of_motion(flight: Flight) -> tuple[Array, Array, Array]:
 
 def stability(flight: Flight) -> str:
     """The end of the stability of a kicked flight: "oscillation" or "lost"; "" if it is stable."""
-    if flight.outcome in FAILURES or flight.failure:
+    if flight.outcome in ENDED or flight.failure:
         return LOST
     first, last, most = sizes_of_motion(flight)
     return OSCILLATES if np.any((last > PERSISTS * first) & (last > SMALL * most)) or last.max() > LARGE else ""
@@ -173,7 +175,7 @@ def stability(flight: Flight) -> str:
 
 def stability_in_hand(flight: Flight) -> str:
     """The end of stability, as of `stability`, in an arm's hand, whose limits keep an oscillation from growing on."""
-    if flight.outcome in FAILURES or flight.failure:
+    if flight.outcome in ENDED or flight.failure:
         return LOST
     first, last, each = sizes_of_motion(flight)
     most = each.max()
@@ -197,18 +199,17 @@ def with_limits(tier: Tier, mission: Mission, fly: bool) -> Tier:
     for claim in tier.claims:
         if claim.limit is not None:
             trial, name = trial_of(mission, claim.parameter), f"limits/{claim.slug}.toml"
-            files[name] = format_toml(tables_of(_mission_beyond(trial, claim.limit)))
+            with suppress(InputError):  # a value beyond that no mission may have, such as a delay above 1 s
+                files[name] = format_toml(tables_of(_mission_beyond(trial, claim.limit)))
             flown = flown_limit(trial, claim.limit) if fly else None
             nominal = parameter(claim.parameter).nominal(mission)
-            claim = claim._replace(command=f"tandemlift run {name}", nominal=nominal, flown=flown)
+            claim = claim._replace(
+                command=f"tandemlift run {name}" if name in files else "", nominal=nominal, flown=flown
+            )
         claims.append(claim)
     return replace(tier, claims=tuple(claims), files=files)
 
 
 def _mission_beyond(trial: LimitTrial, limit: float) -> Mission:
-    """The mission that flies beyond a limit, or just within it if missions beyond are refused."""
-    beyond = PAST if limit >= trial.nominal else 1.0 / PAST
-    try:
-        return trial.mission(limit * beyond)
-    except InputError:
-        return trial.mission(limit / beyond)
+    """The mission that flies beyond a limit."""
+    return trial.mission(limit * PAST if limit >= trial.nominal else limit / PAST)

@@ -25,7 +25,6 @@ from tandemlift.analysis.linearization.loop_margins import (
     largest,
     open_loop,
     rotor_delay_and_lag,
-    rotors_response,
     single_loop,
 )
 from tandemlift.core.errors import InputError
@@ -40,7 +39,7 @@ NO_LIMIT = 60.0  # dB: a gain that may change by more has no limit
 ASSUMPTIONS = (
     "The vehicle hovers: no wind, ground effect, push or person; sensors without errors; small deviations.",
     "The loop is cut at the rotors. Sampling, delays of sensors and estimators, and the hold are as flown.",
-    "Rotors are a delay and a lag of first order, the mean of up and down, and reach no limit.",
+    "Rotors are a delay and a lag of first order, of each its own mean of up and down, and reach no limit.",
     "Margins of an axis: the other three loops are closed. Disk margins of all rotors: each changes by itself.",
 )
 
@@ -51,25 +50,24 @@ class LoopAsFlown(NamedTuple):
     Attributes:
         open: without them, in thrust, roll, pitch, yaw.
         delay: of the rotors [s].
-        lag: of the rotors, the mean of up and down [s].
-        rotors: the allocation (4N, 4) of the calm flight, and the effect (4, 4N) of the rotors.
+        lag: of the rotors, the mean of all, up and down [s]: each rotor's own is in proportion.
     """
 
     open: OpenLoop
     delay: float
     lag: float
-    rotors: tuple[Array, Array]
 
     @property
     def L(self) -> NDArray[np.complexfloating]:
         """The response (F, 4, 4) in thrust, roll, pitch, yaw."""
-        return self.open.L * rotors_response(self.open.w, self.delay, self.lag)[:, None, None]
+        return np.asarray(self.open.L @ self.open.rotors.wrench(self.open.w, self.delay, self.lag), complex)
 
     @property
     def at_rotors(self) -> NDArray[np.complexfloating]:
         """The response (F, 4N, 4N) at each rotor."""
-        allocation, effect = self.rotors
-        return np.asarray(allocation @ self.L @ effect, complex)
+        rotors = self.open.rotors
+        each = rotors.each(self.open.w, self.delay, self.lag)
+        return np.asarray((rotors.allocation @ self.open.L @ rotors.effect) * each[:, None], complex)
 
     @property
     def stable(self) -> bool:
@@ -83,10 +81,7 @@ def loop_as_flown(mission: Mission) -> LoopAsFlown:
     Raises:
         InputError: the controller is plain Python, or the calm flight is lost.
     """
-    vehicle, weights = mission.hover.vehicle, mission.allocation.weights
-    return LoopAsFlown(
-        open_loop(mission), *rotor_delay_and_lag(mission.hover), (vehicle.allocation(weights), vehicle.effect)
-    )
+    return LoopAsFlown(open_loop(mission), *rotor_delay_and_lag(mission.hover))
 
 
 def linear_tier(mission: Mission) -> Tier:
@@ -143,7 +138,8 @@ def rotor_limits(loop: LoopAsFlown) -> Iterator[Claim]:
             continue
         limit = loop._replace(delay=at) if name == "delay" else loop._replace(lag=at)
         axis, frequency = oscillation(limit.open.w, limit.L)
-        text = f"{axis} oscillates at {frequency:.3g} rad/s; the rotors' {name} is {1e3 * nominal:.3g} ms"
+        mean = "mean " if name == "lag" and np.ptp(loop.open.rotors.shares) else ""
+        text = f"{axis} oscillates at {frequency:.3g} rad/s; the rotors' {mean}{name} is {1e3 * nominal:.3g} ms"
         yield Claim(f"{name} limit", "", 1e3 * at, "ms", None, text, frequency, parameter=name, limit=at)
 
 
@@ -153,7 +149,7 @@ def changed_limits(mission: Mission) -> Iterator[Claim]:
     The limit of the largest mass may be the thrust of real rotors; ideal ones have no limit.
     """
     limited = mission.actuators.model == "rotors"
-    lifted = mission.hover.lift / mission.hover.vehicle.weight if limited else math.inf
+    lifted = mission.hover.level_lift / mission.hover.vehicle.weight if limited else math.inf
     for name, growing in itertools.product(CHANGED, (False, True)):
         axis, _, kind = name.rpartition(" ")
         quantity = f"{'largest' if growing else 'least'} {kind}"
@@ -161,7 +157,11 @@ def changed_limits(mission: Mission) -> Iterator[Claim]:
         end = f"it oscillates at {frequency:.3g} rad/s" if frequency else "there is no calm hover beyond it"
         text = f"times the pilot's value; {end}"
         if name == "mass" and at > lifted:
-            at, frequency, text = lifted, math.nan, "times the pilot's value: the most that the rotors lift"
+            at, frequency, text = (
+                lifted,
+                math.nan,
+                "times the pilot's value: the most that the rotors lift without turning",
+            )
         if not 0.0 < at < math.inf:
             yield Claim(quantity, axis, math.inf, "1", text="no limit within a factor of 50")
             continue

@@ -17,7 +17,6 @@ from tandemlift.analysis.linearization.loop_margins import (
     largest,
     open_loop,
     rotor_delay_and_lag,
-    rotors_response,
 )
 from tandemlift.core.errors import CLOSE, FAILS, REFUSED, CheckResult, InputError, judged, noted
 from tandemlift.missions import MissionLike, mission_of
@@ -97,7 +96,7 @@ def check(mission: MissionLike) -> tuple[CheckResult, ...]:
     limits = (*results, *delay_and_lag_limits(loop, delay, lag))
     if not is_stable(loop, delay, lag):
         return limits
-    calm, at = calm_mission(mission, lag=lag)
+    calm, at = calm_mission(mission, slow=1.0)
     closed = linearize(calm, at, kink_tolerance=NO_KINK).connected()
     return *limits, *margins(loop, delay, lag), *modes(modes_of(closed).modes)
 
@@ -129,8 +128,7 @@ def delay_and_lag_limits(loop: OpenLoop, delay: float, lag: float) -> Iterator[C
 
 def margins(loop: OpenLoop, delay: float, lag: float) -> Iterator[CheckResult]:
     """Phase and gain margin of each axis, with the other loops closed."""
-    G = rotors_response(loop.w, delay, lag)[:, None, None]
-    for margin in axis_margins(loop.w, loop.L * G):
+    for margin in axis_margins(loop.w, loop.L @ loop.rotors.wrench(loop.w, delay, lag)):
         if not math.isnan(margin.phase):
             text = f"the {margin.axis} loop lacks {-margin.phase:.3g} deg of phase at {margin.crossover:.3g} rad/s"
             yield judged("loop phase", 180.0 - margin.phase, 180.0, "deg", text, subject=margin.axis, near=NEAR_PHASE)

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from tandemlift.analysis.linearization.loop_margins import AXES, rotor_delay_and_lag
+from tandemlift.analysis.linearization.loop_margins import AXES, rotor_delay_and_lag, rotors_of
 from tandemlift.core.errors import unknown
 from tandemlift.missions import Mission, check, tables_of
 from tandemlift.missions.changes import changed_tables
 
 ARM = "arm stiffness"
+LIFTED = 1.0 - 1e-9  # of the mass that the rotors lift: rounding refuses no mission
 
 
 class UncertainParameter(NamedTuple):
@@ -29,8 +30,20 @@ class UncertainParameter(NamedTuple):
     keys: Callable[[Mission, float], dict[str, Any]]
 
 
-def _lag_keys(quadrotors: int, lag: float) -> dict[str, Any]:
-    return {f"vehicle.quadrotors.{i}.{key}": lag for i in range(quadrotors) for key in ("lag_up", "lag_down")}
+def _lag_keys(mission: Mission, lag: float) -> dict[str, Any]:
+    """The lags of rotors with a mean [s]: each in proportion to its own."""
+    own = rotors_of(mission.hover).shares[::4].tolist()
+    return {f"vehicle.quadrotors.{i}.{key}": lag * x for i, x in enumerate(own) for key in ("lag_up", "lag_down")}
+
+
+def _mass_keys(mission: Mission, scale: float) -> dict[str, Any]:
+    """A mass; beyond what the rotors lift, which no mission may have, the missing weight is a constant force down."""
+    hover, (x, y, z) = mission.hover, mission.disturbance.force
+    most = hover.lift / hover.vehicle.weight
+    if mission.actuators.model != "rotors" or scale <= most:
+        return {"plant.mass_scale": scale}
+    held = LIFTED * most
+    return {"plant.mass_scale": held, "disturbance.force": [x, y, z - (scale - held) * hover.vehicle.weight]}
 
 
 def _inertia(i: int, axis: str) -> UncertainParameter:
@@ -49,9 +62,9 @@ PARAMETERS = {
             "lag",
             "s",
             lambda m: rotor_delay_and_lag(m.hover)[1],
-            lambda m, x: _lag_keys(len(m.vehicle.quadrotors), x),
+            _lag_keys,
         ),
-        UncertainParameter("mass", "1", lambda m: m.plant.mass_scale, lambda m, x: {"plant.mass_scale": x}),
+        UncertainParameter("mass", "1", lambda m: m.plant.mass_scale, _mass_keys),
         *(_inertia(i, axis) for i, axis in enumerate(AXES[1:])),
         UncertainParameter(ARM, "N/m", lambda m: m.person.stiffness, lambda m, x: {"person.stiffness": x}),
     )

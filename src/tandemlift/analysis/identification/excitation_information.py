@@ -89,13 +89,14 @@ def excited_hover(mission: Mission, frequencies: Array) -> ExcitedHover:
     if mission.actuators.model != "rotors":
         raise InputError(f'actuators.model = "{mission.actuators.model}": must be "rotors", which are identified')
     weights, hover = densities(mission.sensors, mission.mission.step), mission.hover
-    calm, at = calm_mission(mission, lag=hover.lag)
+    calm, at = calm_mission(mission, slow=1.0)
     mixing = hover.vehicle.allocation(hover.allocation.weights)
     s = 2j * math.pi * frequencies
     # a command is held over a step, and read after it
-    rotor = rotors_response(2.0 * math.pi * frequencies, mission.actuators.delay + mission.mission.step, hover.lag)
+    lags, late = np.repeat(hover.lags, 4), mission.actuators.delay + mission.mission.step
+    rotors = rotors_response(2.0 * math.pi * frequencies[:, None], late, lags)[:, :, None] * mixing
     loop = linearize(calm, at, inputs=["thrust_offsets"], outputs=MOTION, kink_tolerance=NO_KINK).connected()
-    motion = frequency_response(loop, frequencies) @ mixing * rotor[:, None, None]
+    motion = frequency_response(loop, frequencies) @ rotors
     body = body_response(calm, at, frequencies)
     # the thrusts that turn and lift the body as the loop does; those of the loop's model are of a later time
     moved = [5, 9, 10, 11]  # velocity z, rates

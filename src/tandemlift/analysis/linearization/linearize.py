@@ -43,7 +43,7 @@ KINK_TOLERANCE = 1e-4  # such as 0.1 mm, 0.1 mrad, 0.1 mN
 
 
 def linearize(
-    flight: MissionLike | Simulation,
+    flight: MissionLike | Simulation | OperatingPoint,
     at: float | None = None,
     *,
     of: str = "loop",
@@ -56,7 +56,7 @@ def linearize(
 
     Args:
         flight: a mission, or its name or path, which is flown to the time `at` with the compiled body; or a simulation
-            as it stands.
+            as it stands; or a point.
         at: time of the point [s]. By default the end of the first calm after the lift: just before the first push,
             fault or landing, or before a person begins, else the mission's end; and 0.5 s after the tare, if that
             takes longer, because earlier pushes are ignored. None for a simulation.
@@ -80,7 +80,9 @@ def linearize(
         raise unknown("part", of, PARTS)
     if isinstance(flight, Simulation) and at is not None:
         raise InputError(f"at = {shown(at)}: a simulation is linearized at its own time; step it there")
-    point = as_it_stands(flight) if isinstance(flight, Simulation) else flown_to(mission_of(flight), at)
+    if isinstance(flight, Simulation):
+        flight = as_it_stands(flight)
+    point = flight if isinstance(flight, OperatingPoint) else flown_to(mission_of(flight), at)
     recipe, chosen = linearization_plan(point, of, inputs, outputs, steps)
     here = made = differentiate(recipe)
     averaged = with_mean_lag(point) if of == "loop" else point

@@ -2,11 +2,9 @@
 
 The mission is flown to a hover after its tare, with rotors without delay and lag, and without noise, wind, pushes and
 person. There the closed step is linearized with offsets d of the thrusts as inputs. The resulting wrench is w = S d, so
-the loop is L = S⁻¹ − I (4 × 4: thrust, roll, pitch, yaw). The real rotors multiply it: L G with
-G = e^(−jωT)/(1 + jωτ), τ the mean of the lags up and down.
-
-Delay T and lag τ change the number of unstable poles by the winding of det(I + L G)/det(I + L) about 0; without
-both, the poles are the eigenvalues of the model.
+the loop is L = S⁻¹ − I (4 × 4: thrust, roll, pitch, yaw). The real rotors multiply it: L H with
+H = E diag(e^(−jωT)/(1 + jωτᵢ)) A, A the allocation, E the rotors' effect, E A = I, τᵢ each rotor's mean lag.
+They change the number of unstable poles by the winding of det(I + L H)/det(I + L); without, poles are eigenvalues.
 """
 
 from __future__ import annotations
@@ -25,7 +23,6 @@ from tandemlift.analysis.linearization.linearize import linearize
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, check, tables_of
-from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.hover import HoverFacts
 
 AXES = ("z", "roll", "pitch", "yaw")
@@ -46,6 +43,22 @@ UNROUNDED = {"joints": {"force_resolution": 0.0, "torque_resolution": 0.0}}  # c
 FINER = 10  # frequencies for each at which a response is computed
 
 
+class LoopRotors(NamedTuple):
+    """Rotors of a loop: allocation (4N, 4) and effect (4, 4N), and the lag of each over the mean one (4N)."""
+
+    allocation: Array
+    effect: Array
+    shares: Array
+
+    def each(self, w: Array, delay: float, lag: float) -> NDArray[np.complexfloating]:
+        """The response (F, 4N) of each rotor with a delay and a mean lag [s] at frequencies [rad/s]."""
+        return rotors_response(w[:, None], delay, lag * self.shares)
+
+    def wrench(self, w: Array, delay: float, lag: float) -> NDArray[np.complexfloating]:
+        """H (F, 4, 4): the wrench over the commanded one, likewise."""
+        return np.asarray((self.effect * self.each(w, delay, lag)[:, None]) @ self.allocation, complex)
+
+
 class OpenLoop(NamedTuple):
     """The loop cut at the rotors, without their delay and lag.
 
@@ -53,11 +66,13 @@ class OpenLoop(NamedTuple):
         w: frequencies [rad/s] (F).
         L: its response (F, 4, 4) in thrust, roll, pitch, yaw.
         stable: whether the loop is stable without delay and lag.
+        rotors: its rotors.
     """
 
     w: Array
     L: NDArray[np.complexfloating]
     stable: bool
+    rotors: LoopRotors
 
 
 class AxisMargins(NamedTuple):
@@ -83,12 +98,12 @@ class AxisMargins(NamedTuple):
         return self.least_gain if 1.0 / self.gain <= self.least_gain else self.gain
 
 
-def calm_mission(mission: Mission, *, lag: float | None = None, wait: float = 0.0) -> tuple[Mission, float]:
+def calm_mission(mission: Mission, *, slow: float | None = None, wait: float = 0.0) -> tuple[Mission, float]:
     """(A mission that hovers calmly, the time at which it does [s]).
 
     Args:
         mission: the original.
-        lag: of all rotors [s], with the delay of the mission's real rotors; None for rotors without delay and lag.
+        slow: factor of each real rotor's lag, with their delay; None for rotors without delay and lag.
         wait: additional hover time until then [s].
     """
     t = {name: table for name, table in tables_of(mission).items() if name not in REMOVED}
@@ -97,9 +112,10 @@ def calm_mission(mission: Mission, *, lag: float | None = None, wait: float = 0.
     t["initial"] = {"position": place, "euler": [0.0, 0.0, start.euler[2] if by_hand else 0.0]}
     t["disturbance"] = {"force": [0.0, 0.0, mission.disturbance.force[2]]}
     t["ground"]["effect"] = False
-    t["actuators"] |= {"model": "rotors", "delay": 0.0 if lag is None else rotor_delay_and_lag(mission.hover)[0]}
-    for q in t["vehicle"]["quadrotors"]:
-        q |= {"lag_up": lag or 0.0, "lag_down": lag or 0.0, "max_speed": FASTER * q["max_speed"]}
+    t["actuators"] |= {"model": "rotors", "delay": 0.0 if slow is None else rotor_delay_and_lag(mission.hover)[0]}
+    slow = slow if slow and mission.actuators.model == "rotors" else 0.0
+    for q, lag in zip(t["vehicle"]["quadrotors"], mission.hover.lags, strict=True):
+        q |= {"lag_up": slow * lag, "lag_down": slow * lag, "max_speed": FASTER * q["max_speed"]}
     t["sensors"] |= {"errors": "none", "additional": []}
     height = max(mission.phases.height, 0.5) if floor else mission.phases.height
     t["phases"] |= {"lift_start": 1.0, "lift_duration": LIFT, "height": height}
@@ -130,16 +146,16 @@ def open_loop(mission: Mission) -> OpenLoop:
         model = linearize(calm, at, inputs=["thrust_offsets"], outputs=["rotor_thrusts"], kink_tolerance=NO_KINK)
         if is_calm(model):
             break
-    vehicle, few = Vehicle.from_settings(calm.vehicle), model.connected()
+    few, rotors = model.connected(), rotors_of(mission.hover)
     radius = float(np.abs(np.linalg.eigvals(few.A)).max())
-    in_axes = replace(few, B=few.B @ vehicle.allocation(calm.allocation.weights), C=vehicle.effect @ few.C)
-    in_axes = replace(in_axes, D=vehicle.effect @ few.D @ vehicle.allocation(calm.allocation.weights))
+    A, E = rotors.allocation, rotors.effect
+    in_axes = replace(few, B=few.B @ A, C=E @ few.C, D=E @ few.D @ A)
     # short of the Nyquist frequency, beyond which samples tell nothing of what happens between them
     w = np.geomspace(LOWEST, min(HIGHEST, 0.9 * math.pi / model.step), POINTS)
     held, eye = step_over_sample(w, calm.mission.step, model.step), np.eye(4)
     near = frequency_response(in_axes, w / (2.0 * math.pi)) - eye
     S: NDArray[np.complexfloating] = np.asarray(eye + near * held[:, None, None], complex)
-    return OpenLoop(w, np.linalg.inv(S) - eye, radius <= 1.0 + ON_CIRCLE and is_calm(model))
+    return OpenLoop(w, np.linalg.inv(S) - eye, radius <= 1.0 + ON_CIRCLE and is_calm(model), rotors)
 
 
 def step_over_sample(w: Array, step: float, sample: float) -> NDArray[np.complexfloating]:
@@ -152,10 +168,14 @@ def step_over_sample(w: Array, step: float, sample: float) -> NDArray[np.complex
 
 
 def is_calm(model: LinearModel) -> bool:
-    """Whether the body is at rest at the point of a model: else it has left the hover, and the hover is not stable."""
+    """Whether the body is at rest at the point of a model: else it has left the hover, or has not settled yet."""
+    return motion_of(model) < RESTING
+
+
+def motion_of(model: LinearModel) -> float:
+    """The largest speed [m/s] and rate [rad/s] of the body along an axis at the point of a model."""
     motion = {v.name: x for v, x in zip(model.states, model.point.x0, strict=True)}
-    names = [f"{what}.{axis}" for what in ("velocity", "rates") for axis in "xyz"]
-    return all(abs(motion.get(name, 0.0)) < RESTING for name in names)
+    return max(abs(motion.get(f"{what}.{axis}", 0.0)) for what in ("velocity", "rates") for axis in "xyz")
 
 
 def rotor_delay_and_lag(hover: HoverFacts) -> tuple[float, float]:
@@ -163,20 +183,25 @@ def rotor_delay_and_lag(hover: HoverFacts) -> tuple[float, float]:
     return (hover.actuators.delay, hover.lag) if hover.actuators.model == "rotors" else (0.0, 0.0)
 
 
-def rotors_response(w: Array, delay: float, lag: float) -> NDArray[np.complexfloating]:
-    """G (F) of rotors with a delay and a lag [s] at frequencies [rad/s]."""
+def rotors_of(hover: HoverFacts) -> LoopRotors:
+    """The rotors of a hover's loop."""
+    shares = np.repeat(hover.lags, 4) / hover.lag if hover.lag else np.ones(hover.vehicle.rotor_count)
+    return LoopRotors(hover.vehicle.allocation(hover.allocation.weights), hover.vehicle.effect, shares)
+
+
+def rotors_response(w: Array, delay: float, lag: float | Array) -> NDArray[np.complexfloating]:
+    """e^(−jωT)/(1 + jωτ) (F) of rotors with a delay and a lag [s] at frequencies [rad/s], or (F, n) of n lags."""
     return np.exp(-1j * w * delay) / (1.0 + 1j * w * lag)
 
 
 def is_stable(loop: OpenLoop, delay: float, lag: float) -> bool:
-    """Whether the loop is stable with a delay and a lag of the rotors [s]."""
+    """Whether the loop is stable with a delay and a mean lag of the rotors [s]."""
     if not loop.stable:
         return False
     w, L = refined(loop.w, loop.L)
-    eye, G = np.eye(4), rotors_response(w, delay, lag)[:, None, None]
-    ratio = np.linalg.det(eye + L * G) / np.linalg.det(eye + L)
-    turned = np.unwrap(np.angle(ratio))
-    # G(0) = 1, so that poles become unstable in pairs, off the real axis: each pair turns the ratio by 2π
+    eye, H = np.eye(4), loop.rotors.wrench(w, delay, lag)
+    turned = np.unwrap(np.angle(np.linalg.det(eye + L @ H) / np.linalg.det(eye + L)))
+    # H(0) = I, so that poles become unstable in pairs, off the real axis: each pair turns the ratio by 2π
     return bool(abs(turned[-1] - turned[0]) < math.pi)
 
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from tandemlift.analysis.linearization.linear_model import Variable, connecting_states
 from tandemlift.analysis.linearization.linearize import linearization_plan
-from tandemlift.analysis.linearization.loop_margins import AXES, calm_mission, rotor_delay_and_lag
+from tandemlift.analysis.linearization.loop_margins import AXES, calm_mission
 from tandemlift.analysis.linearization.model_variables import InputColumn
 from tandemlift.analysis.linearization.operating_point import flown_to
 from tandemlift.analysis.linearization.period import differentiate
@@ -68,7 +68,7 @@ def loop_of(mission: Mission) -> CutLoop:
     Raises:
         InputError: the controller is plain Python, the calm flight is lost or does not settle, or there is no cut.
     """
-    calm, at = calm_mission(mission, lag=rotor_delay_and_lag(mission.hover)[1])
+    calm, at = calm_mission(mission, slow=1.0)
     point = flown_to(calm, at)
     request, _ = linearization_plan(point, "loop", [], ["euler"], None)
     graph, axes = request.graph, rotor_axes(calm.vehicle, calm.allocation.weights)

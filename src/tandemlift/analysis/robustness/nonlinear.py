@@ -124,7 +124,7 @@ class OffsetFlights:
     """Flights of the compiled engine from a calm hover with real rotors, disturbed by an offset of the body's state."""
 
     def __init__(self, mission: Mission) -> None:
-        calm, at = calm_mission(mission, lag=0.0)
+        calm, at = calm_mission(mission, slow=0.0)
         tables = tables_of(calm)
         for own, real in zip(tables["vehicle"]["quadrotors"], mission.vehicle.quadrotors, strict=True):
             own |= {"lag_up": real.lag_up, "lag_down": real.lag_down, "max_speed": real.max_speed}

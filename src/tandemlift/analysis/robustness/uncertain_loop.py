@@ -4,7 +4,7 @@ Each parameter p lies within a range and enters as p = middle + half δ, |δ| �
 
 - a rotor's own gain adds the thrust p T of that rotor;
 - an inertia adds the moment −p J ω̇ about its axis;
-- the rotors' lag is τ (1 + p);
+- the rotors' lags are τᵢ (1 + p), rotors of one lag with one signal;
 - their delay is longer by p: e^(−jωp) = (1 − jt)/(1 + jt), with a real t = tan(ωp/2);
 - all rotors' thrust is 1 + p times what is commanded;
 - mass and thrust also change the hover, by `Trim`. Both together add in the open loop, where the thrust scales what the
@@ -62,6 +62,10 @@ class Network:
         """A signal of `size` numbers: the sum of others, each times a number, numbers (F) or matrices (F, a, b)."""
         self.at[name], self.size = slice(self.size, self.size + size), self.size + size
         self.terms += [(name, other, np.asarray(factor)) for other, factor in terms.items()]
+
+    def width(self, names: Sequence[str]) -> int:
+        """The numbers of signals."""
+        return sum(self.at[name].stop - self.at[name].start for name in names)
 
     def response(self, rows: Sequence[str], columns: Sequence[str]) -> Complex:
         """The response of signals to what is added to others (F, r, c)."""
@@ -127,20 +131,27 @@ def uncertain_loop(family: Family, box: Mapping[str, Span], *, late: bool = True
         z = uncertain("delay", "rotors", 4, arrived, by=-t if late else 0.0)
         middle = rotors_response(w, box["delay"].middle, 0.0)
         arrived = {"lifting": middle, z: -2.0 * t * middle} if late else {"lifting": 1.0, z: 1.0}
-    lag, slow = 1j * w * family.lag, box.get("lag", Span(0.0, 0.0))
-    answer = 1.0 / (1.0 + lag * (1.0 + slow.middle))
-    lagging = {uncertain("lag", "rotors", 4, {"speed": 1.0}, by=0.0): -lag * slow.half * answer} if "lag" in box else {}
+    slow, lags = box.get("lag", Span(0.0, 0.0)), family.lags.tolist()
     net.add("arrived", 4, **arrived)
-    net.add("speed", 4, arrived=answer, **lagging)
-    net.add("given", 4, speed=rotors_response(w, family.delay, 0.0))
-    net.add("wrench", 4, given=1.0, command=-1.0)
-    own = {name: np.eye(n)[None, :, int(name[6:]) - 1, None] for name in box if name.startswith("rotor.")}
-    spread = {name: {"given": unit.transpose(0, 2, 1) @ family.spread} for name, unit in own.items()}
-    net.add("own", n, **{uncertain(name, "gain", 1, spread[name]): unit for name, unit in own.items()})
+    for tau in sorted(set(lags)):
+        speed, lag = f"speed_{tau}", 1j * w * tau
+        answer = 1.0 / (1.0 + lag * (1.0 + slow.middle))
+        lagging = [uncertain("lag", speed, 4, {speed: 1.0}, by=0.0)] if "lag" in box else []
+        net.add(speed, 4, arrived=answer, **dict.fromkeys(lagging, -lag * slow.half * answer))
+        net.add(f"given_{tau}", 4, **{speed: rotors_response(w, family.delay, 0.0)})
+    net.add("wrench", 4, command=-1.0, **{f"given_{tau}": family.share(tau) for tau in set(lags)})
+    own = _own_gains(family, box)
+    net.add("own", n, **{uncertain(name, "gain", 1, given): unit for name, (given, unit) in own.items()})
     order = [key for name in box for key in keys[name]]
     M = net.response([f"y_{key}" for key in order], [f"z_{key}" for key in order])
-    sizes = [sum(net.at[key].stop - net.at[key].start for key in keys[name]) for name in box]
-    return UncertainLoop(M, tuple(DeltaBlock(size, real=True) for size in sizes))
+    return UncertainLoop(M, tuple(DeltaBlock(net.width(keys[name]), real=True) for name in box))
+
+
+def _own_gains(family: Family, box: Mapping[str, Span]) -> dict[str, tuple[dict[str, Array], Array]]:
+    """Of each rotor in a box: its thrust by the signal of its lag, and where it acts among all."""
+    eye, lags = np.eye(len(family.lags)), family.lags.tolist()
+    rotors = {name: int(name[6:]) - 1 for name in box if name.startswith("rotor.")}
+    return {n: ({f"given_{lags[i]}": family.spread[None, [i]]}, eye[None, :, [i]]) for n, i in rotors.items()}
 
 
 class DeviatingLoop:

@@ -24,6 +24,7 @@ from tandemlift.analysis.linearization.loop_margins import (
     calm_mission,
     is_calm,
     rotor_delay_and_lag,
+    rotors_of,
 )
 from tandemlift.analysis.robustness.structured_singular_value import Complex
 from tandemlift.core.errors import InputError, unknown
@@ -142,10 +143,10 @@ def calm_model(mission: Mission, values: Values, *, real: bool) -> LinearModel:
         InputError: the controller is plain Python, or the flight is lost.
     """
     real = real and mission.actuators.model == "rotors"
-    lag = mission.hover.lag * (1.0 + values.get("lag", 0.0)) if real else None
+    slow = 1.0 + values.get("lag", 0.0) if real else None
     off = {**values, "lag": 0.0, "delay": values.get("delay", 0.0) if real else 0.0}
     for wait in WAITS:
-        calm, at = calm_mission(mission, lag=lag, wait=wait)
+        calm, at = calm_mission(mission, slow=slow, wait=wait)
         calm = check(uncertain_tables(tables_of(calm), off), mission.mission.name, quiet=True)
         ports: Any = {"inputs": ["thrust_offsets", "disturbance_moment"], "outputs": ["rotor_thrusts", "rates"]}
         model = linearize(calm, at, **ports, kink_tolerance=NO_KINK)
@@ -171,16 +172,22 @@ class Family(NamedTuple):
             moment [N m], to the commanded wrench and to J ω̇ [N m].
         trims: of "mass" and "thrust".
         spread: (n, 4), thrusts of all rotors from a wrench.
-        lag: of the rotors [s].
-        delay: likewise [s].
+        effect: (4, n), the wrench of the thrusts of all rotors.
+        lags: of the rotors (n) [s].
+        delay: of them all [s].
     """
 
     w: Array
     H: Complex
     trims: dict[str, Trim]
     spread: Array
-    lag: float
+    effect: Array
+    lags: Array
     delay: float
+
+    def share(self, lag: float) -> Array:
+        """(4, 4): the wrench of the rotors with a lag over the commanded one."""
+        return np.asarray(self.effect[:, self.lags == lag] @ self.spread[self.lags == lag], float)
 
 
 class Hovers(NamedTuple):
@@ -230,8 +237,8 @@ def family_at(hovers: Hovers, w: Array) -> Family:
         models = zip((one, other), gains, strict=True)
         off = [unit_gain(port_response(hover, hovers.step, m, w), g) - H for m, g in models]
         trims[name] = rational(off[0], off[1], p, q)
-    delay, lag = rotor_delay_and_lag(hover)
-    return Family(w, H, trims, hover.vehicle.allocation(hover.allocation.weights), lag, delay)
+    (delay, lag), rotors = rotor_delay_and_lag(hover), rotors_of(hover)
+    return Family(w, H, trims, rotors.allocation, rotors.effect, lag * rotors.shares, delay)
 
 
 def unit_gain(H: Complex, gain: float) -> Complex:

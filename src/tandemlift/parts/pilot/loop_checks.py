@@ -193,8 +193,7 @@ def loop_delays(loop: ControlLoop) -> Iterator[LoopDelay]:
     w = np.geomspace(LOWEST, min(HIGHEST, 0.9 * math.pi / h), POINTS)
     delay = round(hover.actuators.delay / h) * h + 0.5 * h + loop.readings.common
     K = response.at(np.exp(1j * w * h)) * np.exp(-1j * w[:, None, None] * loop.readings.additional)[..., None]
-    lags = np.array([0.5 * (q.lag_up + q.lag_down) for q in hover.vehicle.quadrotors])
-    lagging = np.mean(1.0 / (1.0 + 1j * w[:, None] * lags), axis=1)
+    lagging = np.mean(1.0 / (1.0 + 1j * np.multiply.outer(w, hover.lags)), axis=1)
     loops = eigenvalues_by_axis(open_loop(loop, w, K) * lagging[:, None, None])
     turns = [excess_turns(w, L) for L in loops]
     stable = abs(sum(turns)) < TURNED  # where two loops meet, they may be interchanged

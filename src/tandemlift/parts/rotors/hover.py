@@ -58,6 +58,14 @@ class HoverFacts(NamedTuple):
         return self.vehicle.max_thrust * self.plant.thrust_scale
 
     @property
+    def level_lift(self) -> float:
+        """The largest thrust of all rotors together without a moment about the real centre of mass [N].
+
+        It is less than `lift` where quadrotors differ: the weaker ones limit what the others give.
+        """
+        return _level_lift(self.vehicle, tuple(self.most.tolist()), self.plant.center_of_mass_offset[:2])
+
+    @property
     def most(self) -> Array:
         """The largest thrust of a rotor of each quadrotor [N] (N)."""
         return np.array([q.thrust_limit for q in self.vehicle.quadrotors]) * self.plant.thrust_scale
@@ -70,7 +78,12 @@ class HoverFacts(NamedTuple):
     @property
     def lag(self) -> float:
         """The mean lag of the rotors, up and down [s]."""
-        return sum(q.lag_up + q.lag_down for q in self.vehicle.quadrotors) / (2.0 * self.vehicle.count)
+        return sum(self.lags) / self.vehicle.count
+
+    @property
+    def lags(self) -> list[float]:
+        """The lag of each quadrotor's rotors [s] (N), the mean of up and down."""
+        return [0.5 * (q.lag_up + q.lag_down) for q in self.vehicle.quadrotors]
 
     @property
     def response_time(self) -> float:
@@ -142,15 +155,25 @@ class HoverFacts(NamedTuple):
 
 @cached
 def _largest_moments(vehicle: Vehicle, most: tuple[float, ...], weight: float) -> list[float]:
-    effect, limits = vehicle.effect, np.repeat(most, 4)
+    wrench = np.array([weight, 0.0, 0.0, 0.0])
+    found = [[_most_of(vehicle.effect, most, axis, way, wrench) for axis in (1, 2, 3)] for way in (1, -1)]
+    return [float(x) for x in np.min(found, axis=0)]
+
+
+@cached
+def _level_lift(vehicle: Vehicle, most: tuple[float, ...], offset: tuple[float, float]) -> float:
+    effect = vehicle.effect.copy()
+    effect[1:3] += np.outer([-offset[1], offset[0]], effect[0])  # moments about the real centre of mass
+    return _most_of(effect, most, 0, 1, np.zeros(4))
+
+
+def _most_of(effect: Array, most: tuple[float, ...], axis: int, way: int, held: Array) -> float:
+    """The largest entry of a wrench, up (1) or down (-1), by rotors within limits that hold its other entries."""
+    limits, weights = np.repeat(most, 4), np.where(np.arange(4) == axis, 1.0, HELD)
     top, none = set_of(limits.tolist()), set_of([0.0] * len(limits))
-    found = np.empty((2, 3))
-    for way, axis in np.ndindex(2, 3):
-        weights = np.where(np.arange(4) == axis + 1, 1.0, HELD)
-        wanted = np.where(weights == 1.0, (1 - 2 * way) * np.abs(effect) @ limits, [weight, 0.0, 0.0, 0.0])
-        problem = BoundedProblem(
-            mixer_from(weighted_rows(effect, weights)), wrench_of(weights), wrench_of(wanted), none, top
-        )
-        thrusts = limited_thrusts(problem, AllocationState(none, none), 64 * len(limits))[0].thrusts
-        found[way, axis] = abs(effect[axis + 1] @ np.array(tuple(thrusts)))
-    return [float(x) for x in found.min(axis=0)]
+    wanted = np.where(weights == 1.0, 2.0 * way * np.abs(effect) @ limits, held)
+    problem = BoundedProblem(
+        mixer_from(weighted_rows(effect, weights)), wrench_of(weights), wrench_of(wanted), none, top
+    )
+    thrusts = limited_thrusts(problem, AllocationState(none, none), 64 * len(limits))[0].thrusts
+    return float(abs(effect[axis] @ np.array(tuple(thrusts))))
