@@ -3,8 +3,8 @@
 A push is compensated by tilt, and the admittance multiplies it by the vehicle's mass over the virtual one. A push that
 alternates faster than the attitude can follow would be compensated late, and so add to itself, while it moves the
 vehicle itself by F/(m ω²) only. So its fast part, what a slow low-pass leaves of it, is followed by the share
-T/max(Ḟ, T), with Ḟ twice the smaller mean of its rises and falls [N/s], summed over the axes: the mean of |Ḟ| of a push
-that alternates, and none of a push that only rises, however steeply. Below T nothing is changed, to the last bit.
+T/max(Ḟ, T), with Ḟ twice the smaller mean of its rises and falls [N/s], summed over the axes: about |Ḟ| of a push that
+alternates, and none of a push that only rises, however steeply. Below T nothing is changed, to the last bit.
 
 T is that of a sine at the attitude's crossover, whose second derivative asks for a share of the vehicle's largest
 angular acceleration in hover: (2/π) share L/ω.
@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from tandemlift.core.algebra import maximum, minimum
+from tandemlift.core.algebra import maximum, minimum, where
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import Number, number
 from tandemlift.core.vector import ZERO, Absent, Vec3
@@ -23,15 +23,16 @@ from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass,
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 SLOW = 5.0  # rad/s, of the low-pass: a shake of 0.8 Hz is halved
-FORGOTTEN = 0.7  # s, time constant of the means
+NOTICED, FORGOTTEN = 0.17, 0.7  # s, time constants of the means as they grow and decay
 CROSSOVER = 14.0  # rad/s, of the attitude loop
 
 
 class Alternation(NamedTuple):
-    """The slow low-pass, the rate of the means [1/s], and T [N/s]."""
+    """The slow low-pass, the rates at which the means grow and decay [1/s], and T [N/s]."""
 
     slow: LowPass
-    rate: Number
+    noticing: Number
+    forgetting: Number
     limit: Number
 
 
@@ -44,9 +45,10 @@ class AlternationState(NamedTuple):
 
 
 @elementwise
-def rise(rate: Number) -> Number:
-    """The rate of a number that rises, else 0."""
-    return maximum(rate, 0.0)
+def averaged(mean: Number, rate: Number, noticing: Number, forgetting: Number) -> Number:
+    """The mean of a rate where it is above 0, after a step: it grows by one part of the difference, or decays."""
+    more = maximum(rate, 0.0) - mean
+    return mean + more * where(more > 0.0, noticing, forgetting)
 
 
 @law(absent="memory")
@@ -54,11 +56,10 @@ def alternation_step(
     k: Alternation, memory: AlternationState, push: LowPassState[Vec3], dt: Number
 ) -> AlternationState:
     """The memory after a step with a push [N]."""
-    part = k.rate * dt
     return AlternationState(
         low_pass_step(k.slow, memory.slow, push.value),
-        memory.rises + (rise(push.rate) - memory.rises) * part,
-        memory.falls + (rise(-push.rate) - memory.falls) * part,
+        averaged(memory.rises, push.rate, k.noticing * dt, k.forgetting * dt),
+        averaged(memory.falls, -push.rate, k.noticing * dt, k.forgetting * dt),
     )
 
 
@@ -98,7 +99,7 @@ def start_alternation(
         return Absent(), Absent()
     limit = (2.0 / math.pi / CROSSOVER) * share * force_curvature(vehicle, moments)
     quiet = AlternationState(LowPassState(ZERO, ZERO), ZERO, ZERO)
-    return Alternation(low_pass(SLOW, step), 1.0 / FORGOTTEN, limit), quiet
+    return Alternation(low_pass(SLOW, step), 1.0 / NOTICED, 1.0 / FORGOTTEN, limit), quiet
 
 
 def force_curvature(vehicle: Vehicle, moments: tuple[Number, Number]) -> Number:

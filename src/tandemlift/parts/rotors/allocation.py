@@ -13,10 +13,12 @@ from tandemlift.core.caching import cached
 from tandemlift.core.keys import Bandwidth, Delay, PerAxis, Positive, Scale, Table, is_number, key, must
 from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number, PerRotor, number
-from tandemlift.core.vector import Absent, Vec3, dot, set_of, vec3
+from tandemlift.core.vector import Absent, Vec3, dot, set_of, total, vec3
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotor_faults import RotorFaults, efficiency_at
+
+AFTER_FAILURE = 1.0 / 30.0  # of the priority of thrust, once a rotor has failed
 
 Priorities = Annotated[tuple[Scale, Scale, Scale, Scale], PerAxis(4)]
 Leads = Annotated[tuple[Delay, Delay, Delay, Delay], PerAxis(4)]
@@ -66,7 +68,8 @@ class AllocationTable(
     priorities: Priorities = key(
         (900.0, 900.0, 900.0, 1.0),
         "1",
-        "for 'constrained': weights of the errors in thrust, roll, pitch and yaw when the rotors cannot give all four",
+        "for 'constrained': weights of the errors in thrust, roll, pitch and yaw when the rotors cannot give all four; "
+        "that of thrust is a thirtieth once a rotor has failed",
         source="chosen: thrust keeps the weight as roll and pitch keep the tilt, then yaw",
     )
     lead: Leads = key(
@@ -147,6 +150,27 @@ def rotor_commands(how: ConstrainedAllocation, thrusts: PerRotor, t: Number) -> 
 def outside_limits(thrust: Number, limit: Number) -> Number:
     """1 where a thrust is outside its limits, else 0."""
     return where(thrust < 0.0, 1.0, where(thrust > limit, 1.0, 0.0))
+
+
+@elementwise
+def has_failed(limit: Number, nominal: Number) -> Number:
+    """1 where a rotor's limit is less than half its nominal one, else 0."""
+    return where(limit < 0.5 * nominal, 1.0, 0.0)
+
+
+@law
+def with_failed(how: ConstrainedAllocation, limits: PerRotor) -> ConstrainedAllocation:
+    """An allocation whose thrust comes after roll and pitch once a rotor has failed: else the vehicle turns over.
+
+    Args:
+        how: the allocation.
+        limits: the largest thrusts that the pilot expects now [N], a set.
+    """
+    scale = where(total(has_failed(limits, how.limits)) > 0.0, AFTER_FAILURE, 1.0)
+    rows, weights = how.rows, how.weights
+    return how._replace(
+        rows=rows._replace(thrust=rows.thrust * scale), weights=weights._replace(thrust=weights.thrust * scale)
+    )
 
 
 @law

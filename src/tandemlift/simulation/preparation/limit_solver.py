@@ -13,7 +13,13 @@ from tandemlift.core.algebra import where
 from tandemlift.core.types import leaves
 from tandemlift.core.vector import total
 from tandemlift.parts.pilot.pilot import with_allocation, with_thrusts
-from tandemlift.parts.rotors.allocation import AllocationState, limits_at, outside_limits, rotor_commands
+from tandemlift.parts.rotors.allocation import (
+    AllocationState,
+    limits_at,
+    outside_limits,
+    rotor_commands,
+    with_failed,
+)
 from tandemlift.parts.rotors.detection import left_of, with_trials
 from tandemlift.parts.rotors.thrust_limit_solver import BoundedProblem, Search, search_step, start_search
 
@@ -83,7 +89,8 @@ def limit_thrusts(graph: Graph, trace: Callable[[Any], Any], pilot: Any, held: A
     wished = decision.thrusts
     limits = trace(limits_at)(how, trace(left_of)(pilot.detection, held.detection), t)
     outside: Any = total(trace(outside_limits)(wished, limits)) > 0.0
-    problem = BoundedProblem(how.rows, how.weights, decision.command.wrench, wished, limits)
+    ranked = trace(with_failed)(how, limits)
+    problem = BoundedProblem(ranked.rows, ranked.weights, decision.command.wrench, wished, limits)
     plain, before = AllocationState(wished * 0.0, wished), held.allocation
     start = AllocationState(where(outside, before.active, plain.active), where(outside, before.thrusts, plain.thrusts))
     search = Search(start, 1.0, 0.0, where(outside, 0.0, 1.0))
