@@ -22,7 +22,7 @@ from tandemlift.parts.interaction.compliance import ComplianceState
 from tandemlift.parts.mechanics.rigid_body import State
 
 DT = 0.01
-COMPLIANCE = ComplianceState(*[None] * 3, *[ZERO] * 5)
+COMPLIANCE = ComplianceState(*[None] * 5, *[ZERO] * 5)
 REACTION = ContactReaction(gap=0.3, recovery_time=0.2, hold_timeout=3.0)
 STATE = State(Vec3(0.0, 0.0, 1.0), ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO)
 WALL = NO_CONTACT._replace(part=1.0, normal=Vec3(-1.0, 0.0, 0.0), point=Vec3(1.0, 0.0, 1.0))

@@ -76,7 +76,7 @@ def test_loops_that_mix_are_told_apart_by_their_eigenvalues():
 
 def test_a_lead_time_of_the_low_passs_own_takes_half_of_the_low_pass_away():
     s, bandwidth = 1j * np.geomspace(0.1, 100.0, 20), 12.0
-    push = PushFeedback(0.0, 0.0, 0.0, bandwidth)
+    push = PushFeedback(0.0, 0.0, 0.0, bandwidth, 0.0, 0.3)
     assert push.compensated(s, 1.0 / bandwidth) == pytest.approx(1.0 / (1.0 + s / bandwidth))
     assert push.compensated(s, 0.0) == pytest.approx(1.0 / (1.0 + s / bandwidth) ** 2)
 

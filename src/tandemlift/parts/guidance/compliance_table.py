@@ -63,13 +63,12 @@ class ComplianceTable(Table, acts='pilot.guidance = "interactive"'):
     vertical_reference_lead: Delay | None = key(
         None, "s", "reference_lead along z", unset="that of x and y", example=0.03
     )
-    alternation_share: Fraction | None = key(
+    alternation_share: Positive = key(
         0.3,
         "1",
         "share of the vehicle's least horizontal agility for which a push that alternates may ask; beyond it, less of "
-        "its fast part is followed and compensated",
+        "its fast part is followed and compensated; 1000 for no limit",
         source="chosen: shakes of 4 N from 0.5 to 10 Hz",
-        unset="no limit",
     )
     mass_feedforward: bool = key(
         False, None, "whether the mass that a tare identifies is accelerated, too, with the reference", source="off"
@@ -104,7 +103,7 @@ def compliance_from(
     admittance: Admittance,
     threshold: Vec3,
     payload: float,
-    alternation: Alternation | Absent,
+    alternation: Alternation,
 ) -> Compliance:
     """The compliance around an admittance; pushes below the threshold [N] are ignored. `payload`: assumed mass [kg]."""
     speed = vec3(c.max_speed)

@@ -18,7 +18,7 @@ from typing import NamedTuple
 from tandemlift.core.algebra import maximum, minimum, where
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import Number, number
-from tandemlift.core.vector import ZERO, Absent, Vec3
+from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
@@ -51,7 +51,7 @@ def averaged(mean: Number, rate: Number, noticing: Number, forgetting: Number) -
     return mean + more * where(more > 0.0, noticing, forgetting)
 
 
-@law(absent="memory")
+@law
 def alternation_step(
     k: Alternation, memory: AlternationState, push: LowPassState[Vec3], dt: Number
 ) -> AlternationState:
@@ -76,7 +76,7 @@ def mean_rate(m: AlternationState) -> Number:
     return 2.0 * (least.x + least.y + least.z)
 
 
-@law(absent="push")
+@law
 def calmed(k: Alternation, m: AlternationState, push: LowPassState[Vec3]) -> LowPassState[Vec3]:
     """The push that is followed and compensated [N]: with less of its fast part where it alternates too fast."""
     left_out = 1.0 - k.limit / maximum(mean_rate(m), k.limit)
@@ -85,18 +85,16 @@ def calmed(k: Alternation, m: AlternationState, push: LowPassState[Vec3]) -> Low
 
 
 def start_alternation(
-    share: float | None, vehicle: Vehicle, moments: tuple[Number, Number], step: float
-) -> tuple[Alternation, AlternationState] | tuple[Absent, Absent]:
-    """The limit of a push that alternates, and its memory; or `Absent` without a limit.
+    share: Number, vehicle: Vehicle, moments: tuple[Number, Number], step: float
+) -> tuple[Alternation, AlternationState]:
+    """The limit of a push that alternates, and its memory before the first sample.
 
     Args:
-        share: of the largest roll or pitch acceleration in hover, for which a push may ask; None: no limit.
+        share: of the largest roll or pitch acceleration in hover, for which a push may ask.
         vehicle: as the pilot assumes it.
         moments: the largest roll and pitch moments in hover [N·m].
         step: sampling time [s].
     """
-    if share is None:
-        return Absent(), Absent()
     limit = (2.0 / math.pi / CROSSOVER) * share * force_curvature(vehicle, moments)
     quiet = AlternationState(LowPassState(ZERO, ZERO), ZERO, ZERO)
     return Alternation(low_pass(SLOW, step), 1.0 / NOTICED, 1.0 / FORGOTTEN, limit), quiet

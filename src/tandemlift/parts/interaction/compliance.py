@@ -108,7 +108,7 @@ class Compliance(NamedTuple):
     reference_lead: Number | Vec3
     payload: AssumedPayload | Absent
     policy: Policy | Absent
-    alternation: Alternation | Absent
+    alternation: Alternation
 
 
 class ComplianceState(NamedTuple):
@@ -117,7 +117,7 @@ class ComplianceState(NamedTuple):
     """
 
     measured: LowPassState[Vec3]
-    alternation: AlternationState | Absent
+    alternation: AlternationState
     filtered: LowPassState[Vec3]
     band: DeadBandState[Vec3]
     output: LowPassState[Vec3]
@@ -282,7 +282,7 @@ def compensated_push(k: Compliance, m: ComplianceState) -> Vec3:
     return m.filtered.value + m.filtered.rate * k.force_lead
 
 
-def start_compliance(position: Vec3, alternation: AlternationState | Absent) -> ComplianceState:
+def start_compliance(position: Vec3, alternation: AlternationState) -> ComplianceState:
     """The memory before the first sample, without a push, at a position [m]; `alternation`: that of the push."""
     no_push = LowPassState(ZERO, ZERO)
     return ComplianceState(

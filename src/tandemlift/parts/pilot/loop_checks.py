@@ -86,7 +86,7 @@ class PushFeedback(NamedTuple):
     moment_lead: float
     bandwidth: float
     horizontal_lead: float
-    alternation_share: float | None
+    alternation_share: float
 
     def compensated(self, s: NDArray[np.complexfloating], lead: float) -> NDArray[np.complexfloating]:
         """The compensated fraction of a push [1] at s [rad/s], with a lead time [s]."""
@@ -151,12 +151,11 @@ def shake_checks(push: PushFeedback, hover: HoverFacts, *, compensates: bool) ->
     most = force_curvature(hover.vehicle, hover_moments(hover.allocation, hover.vehicle))
     peak = float(most / (CROSSOVER**2 * asked))  # N, of a sine
     shake = f"a push of {peak:.2g} N that alternates at {CROSSOVER / (2.0 * math.pi):.2g} Hz asks for all that"
-    share = math.inf if push.alternation_share is None else push.alternation_share * float(asked)
-    if compensates and share > 1.0:
-        given = "not set" if push.alternation_share is None else f"{push.alternation_share:g}"
+    if compensates and push.alternation_share * asked > 1.0:
         yield warned(
             f"{shake} roll or pitch can give, and is compensated late, which makes it larger: "
-            f"compliance.alternation_share is {given}; set it to 0.3, or controller.human_force_feedforward to false"
+            f"compliance.alternation_share = {push.alternation_share:g}; set it to 0.3, or "
+            "controller.human_force_feedforward to false"
         )
     thrust, *moments, _ = hover.allocation.priorities
     if hover.allocation.method == "constrained" and thrust < GIVEN_AWAY * max(moments):
