@@ -159,11 +159,11 @@ def test_ends_are_apart_where_the_centre_of_mass_is_not_in_the_middle():
 
 
 def test_a_true_sine_flown_step_by_step_is_answered_below_the_predicted_peak_and_not_above_it():
-    """Another path: `Simulation`, another lift, a sine instead of Gaussians; along z, so that thrust ends it."""
+    """Another path: `Simulation`, another lift, a sine instead of Gaussians; along x at an end, so that yaw ends it."""
     calm = {"phases.lift_start": 1.0, "phases.lift_duration": 5.0, "phases.land_start": None, "pushes": []}
     calm |= {"estimator.tare_start": 7.0, "mission.duration": 21.0, "mission.log_interval": 0.02}
     mission = load_mission("iris", calm)
-    (hand,) = (h for h in shaken_hands(mission) if (h.place, h.axis, h.frequency) == ("middle", 2, 10.0))
+    (hand,) = (h for h in shaken_hands(mission) if (h.place, h.axis, h.frequency) == ("+y end", 0, 2.0))
     (peak,) = largest_shakes(mission, [hand])
     sim = tl.Simulation(mission)
 
@@ -172,7 +172,7 @@ def test_a_true_sine_flown_step_by_step_is_answered_below_the_predicted_peak_and
         sim.step(steps=round(11.0 / sim.dt))
         while not sim.over:
             t = sim.time - 11.0 + 0.002
-            sim.step([0.0, 0.0, peak * math.sin(20.0 * math.pi * t) * (t < SECONDS)], point=hand.point, steps=4)
+            sim.step([peak * math.sin(4.0 * math.pi * t) * (t < SECONDS), 0.0, 0.0], point=hand.point, steps=4)
         return is_answered(sim.flight(), 11.0)
 
     assert answers(0.8 * peak)

@@ -61,7 +61,7 @@ def test_a_triangle_is_noticed_by_the_means_of_its_rises_and_falls(limit):
 
     _, _, m = followed(limit, triangle, 4.0)  # ends after a fall
     grown, kept = np.exp(-half / NOTICED), np.exp(-half / FORGOTTEN)
-    most = rate * (1.0 - grown) / (1.0 - grown * kept)
+    most = (rate - limit[0].least) * (1.0 - grown) / (1.0 - grown * kept)
     assert (m.falls.x, m.rises.x) == pytest.approx((most, most * kept), rel=0.02)
     assert mean_rate(m) == pytest.approx(2.0 * most * kept, rel=0.02)
 

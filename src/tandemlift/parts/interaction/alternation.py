@@ -24,15 +24,17 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 
 SLOW = 5.0  # rad/s, of the low-pass: a shake of 0.8 Hz is halved
 NOTICED, FORGOTTEN = 0.17, 0.7  # s, time constants of the means as they grow and decay
+LEAST = 0.1  # of T: noise, which is no rise or fall
 CROSSOVER = 14.0  # rad/s, of the attitude loop
 
 
 class Alternation(NamedTuple):
-    """The slow low-pass, the rates at which the means grow and decay [1/s], and T [N/s]."""
+    """The slow low-pass, the rates at which the means grow and decay [1/s], the least rate that counts, and T [N/s]."""
 
     slow: LowPass
     noticing: Number
     forgetting: Number
+    least: Number
     limit: Number
 
 
@@ -45,10 +47,10 @@ class AlternationState(NamedTuple):
 
 
 @elementwise
-def averaged(mean: Number, rate: Number, noticing: Number, forgetting: Number) -> Number:
-    """The mean of a rate where it is above 0, after a step: it grows by one part of the difference, or decays."""
-    more = maximum(rate, 0.0) - mean
-    return mean + more * where(more > 0.0, noticing, forgetting)
+def averaged(mean: Number, rate: Number, least: Number, noticing: Number, forgetting: Number) -> Number:
+    """The mean of a rate beyond the least, after a step: it grows or decays by a part of the difference."""
+    more = maximum(rate - least, 0.0) - mean
+    return mean + more * where(more > least, noticing, forgetting)
 
 
 @law
@@ -56,10 +58,11 @@ def alternation_step(
     k: Alternation, memory: AlternationState, push: LowPassState[Vec3], dt: Number
 ) -> AlternationState:
     """The memory after a step with a push [N]."""
+    growing, decaying = k.noticing * dt, k.forgetting * dt
     return AlternationState(
         low_pass_step(k.slow, memory.slow, push.value),
-        averaged(memory.rises, push.rate, k.noticing * dt, k.forgetting * dt),
-        averaged(memory.falls, -push.rate, k.noticing * dt, k.forgetting * dt),
+        averaged(memory.rises, push.rate, k.least, growing, decaying),
+        averaged(memory.falls, -push.rate, k.least, growing, decaying),
     )
 
 
@@ -97,7 +100,7 @@ def start_alternation(
     """
     limit = (2.0 / math.pi / CROSSOVER) * share * force_curvature(vehicle, moments)
     quiet = AlternationState(LowPassState(ZERO, ZERO), ZERO, ZERO)
-    return Alternation(low_pass(SLOW, step), 1.0 / NOTICED, 1.0 / FORGOTTEN, limit), quiet
+    return Alternation(low_pass(SLOW, step), 1.0 / NOTICED, 1.0 / FORGOTTEN, LEAST * limit, limit), quiet
 
 
 def force_curvature(vehicle: Vehicle, moments: tuple[Number, Number]) -> Number:
