@@ -33,7 +33,7 @@ def iris():
 @pytest.fixture(scope="module")
 def limit(iris):
     mission, vehicle = iris
-    return start_alternation(0.3, vehicle, hover_moments(mission.allocation, vehicle), H)
+    return start_alternation(0.25, vehicle, hover_moments(mission.allocation, vehicle), H)
 
 
 def followed(limit, push, seconds):
@@ -79,7 +79,7 @@ def test_less_of_the_fast_part_is_followed_as_the_push_alternates_faster(limit):
 def test_the_limit_is_the_mean_rate_of_a_sine_that_asks_for_the_share_at_the_crossover(iris, limit):
     mission, vehicle = iris
     t = np.linspace(0.0, 2.0 * np.pi / CROSSOVER, 100_001)
-    peak = 0.3 * force_curvature(vehicle, hover_moments(mission.allocation, vehicle)) / CROSSOVER**2
+    peak = 0.25 * force_curvature(vehicle, hover_moments(mission.allocation, vehicle)) / CROSSOVER**2
     mean = np.trapezoid(np.abs(peak * CROSSOVER * np.cos(CROSSOVER * t)), t) / t[-1]
     assert limit[0].limit == pytest.approx(mean, rel=1e-6)
 
@@ -108,8 +108,8 @@ def test_thrust_comes_after_roll_and_pitch_once_a_rotor_has_failed(iris):
     assert with_failed(how, how.limits) == how
     assert with_failed(how, how.limits * 0.6) == how  # a weak battery is no failed rotor
     failed = with_failed(how, type(how.limits)(0.0, *how.limits[1:]))
-    assert failed.weights.thrust == pytest.approx(how.weights.thrust / 30.0)
-    assert list(failed.rows.thrust) == pytest.approx([x / 30.0 for x in how.rows.thrust])
+    assert failed.weights.thrust == pytest.approx(how.weights.thrust / 10.0)
+    assert list(failed.rows.thrust) == pytest.approx([x / 10.0 for x in how.rows.thrust])
     assert (failed.weights.moment, failed.rows.roll) == (how.weights.moment, how.rows.roll)
 
 

@@ -64,7 +64,7 @@ class ComplianceTable(Table, acts='pilot.guidance = "interactive"'):
         None, "s", "reference_lead along z", unset="that of x and y", example=0.03
     )
     alternation_share: Positive = key(
-        0.3,
+        0.25,
         "1",
         "share of the vehicle's least horizontal agility for which a push that alternates may ask; beyond it, less of "
         "its fast part is followed and compensated; 1000 for no limit",

@@ -24,7 +24,7 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 
 SLOW = 5.0  # rad/s, of the low-pass: a shake of 0.8 Hz is halved
 NOTICED, FORGOTTEN = 0.17, 0.7  # s, time constants of the means as they grow and decay
-LEAST = 0.1  # of T: noise, which is no rise or fall
+LEAST = 0.5  # of T: what is noise, and no rise or fall
 CROSSOVER = 14.0  # rad/s, of the attitude loop
 
 

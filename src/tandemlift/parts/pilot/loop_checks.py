@@ -154,7 +154,7 @@ def shake_checks(push: PushFeedback, hover: HoverFacts, *, compensates: bool) ->
     if compensates and push.alternation_share * asked > 1.0:
         yield warned(
             f"{shake} roll or pitch can give, and is compensated late, which makes it larger: "
-            f"compliance.alternation_share = {push.alternation_share:g}; set it to 0.3, or "
+            f"compliance.alternation_share = {push.alternation_share:g}; set it to 0.25, or "
             "controller.human_force_feedforward to false"
         )
     thrust, *moments, _ = hover.allocation.priorities

@@ -18,7 +18,7 @@ from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotor_faults import RotorFaults, efficiency_at
 
-AFTER_FAILURE = 1.0 / 30.0  # of the priority of thrust, once a rotor has failed
+AFTER_FAILURE = 0.1  # of the priority of thrust, once a rotor has failed
 
 Priorities = Annotated[tuple[Scale, Scale, Scale, Scale], PerAxis(4)]
 Leads = Annotated[tuple[Delay, Delay, Delay, Delay], PerAxis(4)]
@@ -66,11 +66,11 @@ class AllocationTable(
         source="all equal; open in the paper",
     )
     priorities: Priorities = key(
-        (900.0, 900.0, 900.0, 1.0),
+        (300.0, 900.0, 900.0, 1.0),
         "1",
         "for 'constrained': weights of the errors in thrust, roll, pitch and yaw when the rotors cannot give all four; "
-        "that of thrust is a thirtieth once a rotor has failed",
-        source="chosen: thrust keeps the weight as roll and pitch keep the tilt, then yaw",
+        "that of thrust is a tenth once a rotor has failed",
+        source="chosen: roll and pitch first, then thrust, which keeps the weight, then yaw",
     )
     lead: Leads = key(
         (0.0, 0.0, 0.0, 0.0),
