@@ -59,6 +59,8 @@ UNITS = (  # of a state whose name, without its components, matches first
     ("guidance.heading.band.*", "N m"),
     ("guidance.moment.value", "N m"),
     ("guidance.moment.rate", "N m/s"),
+    ("guidance.compliance.alternation.rises", "N/s"),
+    ("guidance.compliance.alternation.falls", "N/s"),
     ("guidance.compliance.*.value", "N"),
     ("guidance.compliance.*.rate", "N/s"),
     ("guidance.compliance.band.*", "N"),

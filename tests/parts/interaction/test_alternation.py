@@ -98,7 +98,7 @@ def test_a_shake_that_felled_iris_lets_it_neither_sink_nor_turn(hand):
     ((answered, now),) = flown_shakes(tl.load_mission("iris"), [hand])
     assert before.sinks > 0.2
     assert answered
-    assert now.sinks < 0.05
+    assert now.sinks < 0.1
     assert now.turns < 2.0
 
 
