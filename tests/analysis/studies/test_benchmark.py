@@ -264,6 +264,15 @@ def test_a_baseline_flown_again_has_the_numbers_that_ship(monkeypatch):
     assert benchmark.scores_of(entry, quick=True) == benchmark.shipped_tables(quick=True)["policies"][entry.name]
 
 
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_task_can_be_planned_for_every_baseline(monkeypatch, kind):
+    """A key that a study draws must act in its missions: the draws once had a wind without `wind.model`."""
+    monkeypatch.setattr(benchmark, "tasks", TASKS)
+    for entry in baselines(kind):
+        for task in {column.task for column in COLUMNS[kind]}:
+            assert benchmark.plan_of(entry, task, quick=False).count >= 1
+
+
 @pytest.mark.parametrize("quick", [True, False])
 def test_the_tables_that_ship_have_all_baselines_and_columns(quick):
     tables = benchmark.shipped_tables(quick=quick)
