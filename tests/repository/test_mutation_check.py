@@ -61,7 +61,7 @@ def test_300_mistakes_are_drawn_in_flights_and_200_beside_each_can_be_compiled_a
     assert [len(many) for many in drawn.values()] == [count for count, _ in mutation_check.ROOMS.values()]
     every, flown = [m for many in drawn.values() for m in many], [m for room in FLOWN for m in drawn[room]]
     assert len(flown) >= 300
-    assert sum(m.is_law for m in flown) > len(flown) / 2
+    assert sum(m.is_law for m in flown) >= len(flown) / 2
     assert len(every) - len(flown) >= 200
     assert len({m.name for m in every}) == len(every)
     for m in every[::5]:
