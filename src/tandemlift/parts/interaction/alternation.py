@@ -25,6 +25,7 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 SLOW = 5.0  # rad/s, of the low-pass: a shake of 0.8 Hz is halved
 NOTICED, FORGOTTEN = 0.17, 0.7  # s, time constants of the means as they grow and decay
 LEAST = 0.5  # of T: what is noise, and no rise or fall
+NO_LIMIT = 1e9  # N/s, of a vehicle whose rotors cannot hover
 CROSSOVER = 14.0  # rad/s, of the attitude loop
 
 
@@ -98,7 +99,8 @@ def start_alternation(
         moments: the largest roll and pitch moments in hover [N·m].
         step: sampling time [s].
     """
-    limit = (2.0 / math.pi / CROSSOVER) * share * force_curvature(vehicle, moments)
+    found = (2.0 / math.pi / CROSSOVER) * share * force_curvature(vehicle, moments)
+    limit = where(found > 0.0, found, NO_LIMIT)
     quiet = AlternationState(LowPassState(ZERO, ZERO), ZERO, ZERO)
     return Alternation(low_pass(SLOW, step), 1.0 / NOTICED, 1.0 / FORGOTTEN, LEAST * limit, limit), quiet
 
