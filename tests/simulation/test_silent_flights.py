@@ -86,7 +86,7 @@ ROWS = {
         "no thrust left",
     ),
     "gains of paper on the rotors of iris": Row(
-        "iris", PAPER, "not-lifted", {"saturated", "oscillating", "cannot-follow"}, "heading lost"
+        "iris", PAPER, "landed", {"saturated", "oscillating", "cannot-follow"}, "heading lost"
     ),
     "paper on real rotors": Row("paper", {"actuators.model": "rotors"}, "crashed", set()),
 }
@@ -115,7 +115,7 @@ def test_its_outcome_and_its_findings_tell_of_it_after(name, flown):
     if row.found is not None:
         assert row.found <= kinds
         return
-    assert kinds <= {"oscillating", "response-without-push"}  # in a gust, which it is warned of
+    assert kinds <= {"oscillating", "response-without-push", "no-response-to-push"}  # in a gust, which it is warned of
     error = np.abs(flight["position"] - flight["reference_position"])
     assert error.max() < NEAR
     assert np.degrees(np.abs(flight["euler"][:, :2])).max() < 17.0
@@ -134,7 +134,7 @@ def test_a_vehicle_that_cannot_follow_says_why_from_the_end_of_the_lift_on(name,
         assert set(flight["phase"][after]) == {LIMITED}
     else:
         assert flight["phase"][-1] == 0.0  # it has landed long before its time
-        assert flight.time[flight["phase"] == 3.0][-1] < 30.0
+        assert flight.time[flight["phase"] == 3.0][-1] < 60.0
 
 
 CLEAN_ENDS = ["yaw moment of 3 N m", "rotors 35 % weaker", "30 N downwards", "six times the lag, three times the delay"]
