@@ -47,6 +47,7 @@ DROP = """([name, text]) => {
 }"""
 SIZE = {"width": 800, "height": 450}
 MS = 1e3 * PATIENCE
+STILL = 2.0  # pixels between two pictures
 REMEMBER = """
 window.told = new Set(); // texts that the page shows for some seconds only
 new MutationObserver(() => {
@@ -171,13 +172,16 @@ def beam_pixels(page):
 
 
 def middle_of_the_beam(page):
-    """The middle of the wooden beam on the page."""
+    """The middle of the wooden beam on the page, once it stands still there: a page that opened may move it yet."""
+    places = [(np.inf, np.inf)]
 
-    def seen():
+    def still():
         x, y = beam_pixels(page)
-        return None if len(x) < 100 else (np.median(x), np.median(y))
+        places.append((np.median(x), np.median(y)) if len(x) >= 100 else (np.inf, np.inf))
+        return max(np.abs(np.subtract(*places[-2:]))) <= STILL
 
-    return until(seen, "a beam on the page")
+    until(still, "a beam that stands still on the page")
+    return places[-1]
 
 
 def with_still_camera(page):
