@@ -21,6 +21,7 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import hover_moments, start_allocation, with_failed
 
 H = 1e-3
+MOST = Vec3(50.0, 50.0, 50.0)  # N
 BEFORE = {"compliance.alternation_share": 1e3, "allocation.priorities": [30.0, 900.0, 900.0, 1.0]}
 
 
@@ -33,7 +34,7 @@ def iris():
 @pytest.fixture(scope="module")
 def limit(iris):
     mission, vehicle = iris
-    return start_alternation(0.25, vehicle, hover_moments(mission.allocation, vehicle), H)
+    return start_alternation(0.25, MOST, vehicle, hover_moments(mission.allocation, vehicle), H)
 
 
 def followed(limit, push, seconds):
@@ -123,3 +124,13 @@ def test_thrust_comes_after_roll_and_pitch_once_a_rotor_has_failed(iris):
 def test_a_feedforward_faster_than_the_attitude_and_a_weight_given_away_are_warned_of(changes, said):
     with pytest.warns(tl.FlightWarning, match=said):
         tl.load_mission("iris", changes)
+
+
+def test_a_tap_beyond_what_the_reference_can_follow_is_over_when_it_is_over():
+    tap = {"time": 15.0, "sigma": 0.05, "force": [20.0, 0.0, 0.0]}
+    moved = {}
+    for share in (0.25, 1e3):  # 1e3: nothing is calmed
+        flight = tl.fly(tl.load_mission("iris", {"compliance.alternation_share": share, "pushes": [tap]}))
+        assert flight.findings == ()
+        moved[share] = np.ptp(flight["reference_position"][flight.time > 14.0, 0])
+    assert moved[0.25] < moved[1e3]

@@ -5,6 +5,7 @@ alternates faster than the attitude can follow would be compensated late, and so
 vehicle itself by F/(m ω²) only. So its fast part, what a slow low-pass leaves of it, is followed by the share
 T/max(Ḟ, T), with Ḟ twice the smaller mean of its rises and falls [N/s], summed over the axes: about |Ḟ| of a push that
 alternates, and none of a push that only rises, however steeply. Below T nothing is changed, to the last bit.
+The low-pass takes no more of a push than the reference can follow, or a hard tap would be followed when it is over.
 
 T is that of a sine at the attitude's crossover, whose second derivative asks for a share of the vehicle's largest
 angular acceleration in hover: (2/π) share L/ω.
@@ -15,7 +16,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from tandemlift.core.algebra import maximum, minimum, where
+from tandemlift.core.algebra import clip, maximum, minimum, where
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import Number, number
 from tandemlift.core.vector import ZERO, Vec3
@@ -30,9 +31,12 @@ CROSSOVER = 14.0  # rad/s, of the attitude loop
 
 
 class Alternation(NamedTuple):
-    """The slow low-pass, the rates at which the means grow and decay [1/s], the least rate that counts, and T [N/s]."""
+    """The slow low-pass, and how much of a push it takes [N]; the rates at which the means grow and decay [1/s], the
+    least rate that counts, and T [N/s].
+    """
 
     slow: LowPass
+    most: Vec3
     noticing: Number
     forgetting: Number
     least: Number
@@ -61,7 +65,7 @@ def alternation_step(
     """The memory after a step with a push [N]."""
     growing, decaying = k.noticing * dt, k.forgetting * dt
     return AlternationState(
-        low_pass_step(k.slow, memory.slow, push.value),
+        low_pass_step(k.slow, memory.slow, clip(push.value, -k.most, k.most)),
         averaged(memory.rises, push.rate, k.least, growing, decaying),
         averaged(memory.falls, -push.rate, k.least, growing, decaying),
     )
@@ -89,12 +93,13 @@ def calmed(k: Alternation, m: AlternationState, push: LowPassState[Vec3]) -> Low
 
 
 def start_alternation(
-    share: Number, vehicle: Vehicle, moments: tuple[Number, Number], step: float
+    share: Number, most: Vec3, vehicle: Vehicle, moments: tuple[Number, Number], step: float
 ) -> tuple[Alternation, AlternationState]:
     """The limit of a push that alternates, and its memory before the first sample.
 
     Args:
         share: of the largest roll or pitch acceleration in hover, for which a push may ask.
+        most: the push along each axis at which the reference's acceleration is at its limit [N].
         vehicle: as the pilot assumes it.
         moments: the largest roll and pitch moments in hover [N·m].
         step: sampling time [s].
@@ -102,7 +107,7 @@ def start_alternation(
     found = (2.0 / math.pi / CROSSOVER) * share * force_curvature(vehicle, moments)
     limit = where(found > 0.0, found, NO_LIMIT)
     quiet = AlternationState(LowPassState(ZERO, ZERO), ZERO, ZERO)
-    return Alternation(low_pass(SLOW, step), 1.0 / NOTICED, 1.0 / FORGOTTEN, LEAST * limit, limit), quiet
+    return Alternation(low_pass(SLOW, step), most, 1.0 / NOTICED, 1.0 / FORGOTTEN, LEAST * limit, limit), quiet
 
 
 def force_curvature(vehicle: Vehicle, moments: tuple[Number, Number]) -> Number:

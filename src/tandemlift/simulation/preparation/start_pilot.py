@@ -112,8 +112,10 @@ def start_hand_guidance(
     tank, filled = start_tank(c.tank)
     heading, turned = start_heading(c.yaw, push, vehicle, 0.0 if at_rest else mission.initial.euler[2])
     contact, touching = start_contact_hold(mission.contact, mission.estimator.wrench)
+    a = mission.admittance
+    most = vec3(M * limit + F for M, limit, F in zip(a.mass, c.max_acceleration, a.threshold, strict=True))
     alternation, calm = start_alternation(
-        c.alternation_share, vehicle, hover_moments(mission.allocation, vehicle), mission.mission.step
+        c.alternation_share, most, vehicle, hover_moments(mission.allocation, vehicle), mission.mission.step
     )
     max_tilt = c.max_tilt if of_controller is None else minimum(c.max_tilt, of_controller)
     guided = HandGuidance(
