@@ -1,8 +1,7 @@
 """The largest shake as the certificate predicts it, and as flights that know nothing of it find it.
 
 Predicted by flights in blocks. Flown by `tl.Simulation`, step by step, with a true sine in place of Gaussians, another
-lift, another seed of all errors and noise, and some in MuJoCo: 15 % less must be answered, 15 % more must not. Where
-that is not so, bisection tells the ratio.
+lift, another seed of all errors and noise, and some in MuJoCo, with rising peaks around the predicted one.
 """
 
 from __future__ import annotations
@@ -22,6 +21,7 @@ from tandemlift.analysis.certification.shakes import (
     RESTS,
     SECONDS,
     Shake,
+    end_of_answers,
     is_answered,
     largest_shakes,
     shaken_hands,
@@ -29,7 +29,7 @@ from tandemlift.analysis.certification.shakes import (
 from tandemlift.missions import Mission
 from tandemlift.parts.rotors.authority import PUSHED
 
-WITHIN, HALVINGS, FARTHEST = 0.15, 3, 2.0  # of the ratio of a flown peak to a predicted one
+WITHIN, RATIOS = 0.15, np.geomspace(0.5, 2.0, 15)  # of a flown peak to a predicted one
 LOWEST, HIGHEST = 0.5, 10.0  # Hz
 HELD = 0.004  # s, for which a force is held
 
@@ -67,16 +67,9 @@ def answers(sim: tl.Simulation, hand: Shake, peak: float, seed: int) -> bool:
 
 def flown_ratio(sim: tl.Simulation, hand: Shake, peak: float, most: bool, seed: int) -> float:
     """The largest answered peak over a predicted one; 1 within 15 %. `most`: no larger one was tried."""
-    if not answers(sim, hand, peak * (1.0 - WITHIN), seed):
-        low, high = 1.0 / FARTHEST, 1.0 - WITHIN
-    elif most or not answers(sim, hand, peak * (1.0 + WITHIN), seed):
-        return 1.0
-    else:
-        low, high = 1.0 + WITHIN, FARTHEST
-    for _ in range(HALVINGS):
-        middle = math.sqrt(low * high)
-        low, high = (middle, high) if answers(sim, hand, peak * middle, seed) else (low, middle)
-    return math.sqrt(low * high)
+    ratios = RATIOS[RATIOS <= 1.0] if most else RATIOS
+    found = end_of_answers(ratios, [answers(sim, hand, peak * ratio, seed) for ratio in ratios.tolist()])
+    return 1.0 if abs(found - 1.0) <= WITHIN or (most and found == math.inf) else found
 
 
 def compared(seed: int, draws: int, mujoco: int, bases: tuple[str, ...]) -> Iterator[Compared]:

@@ -28,8 +28,8 @@ SECONDS, RESTS = 8.0, 2.0
 BEYOND = {"touched", "out-of-reach", "landed-by-fault"}
 NEAR_END = 0.9  # of half the payload's length: where a hand holds an end
 PEAK, PUSHED = 3.0, 3.5  # N and kg of the check, as of the check `push`: all forces are in proportion to the mass
-LEAST, MOST, LEVELS = 0.25, 8.0, 8  # N: peaks that are tried, and how many
-WIDTH = 0.2  # of a period: σ of the Gaussians whose sum is a sine
+LEAST, MOST, LEVELS = 0.25, 8.0, 33  # N: peaks that are tried, and how many
+WIDTH, POINTS, APART = 0.8, 4, 0.025  # σ of the Gaussians whose sum is a sine, in gaps; of a half wave; s, of a gap
 LOGGED, AT_ONCE = 0.02, 128  # s; flights in memory
 
 
@@ -94,17 +94,20 @@ def hover_to_shake(mission: Mission) -> tuple[Mission, float]:
 
 
 def shaken(hover: Mission, at: float, hand: Shake) -> Mission:
-    """A hover with a shake from a time [s] on: Gaussians of alternating sign, half a period T apart, of σ = T/5.
+    """A hover with a shake from a time [s] on: Gaussians h apart, of σ = WIDTH · h, as high as a sine times 1/g there.
 
-    The odd harmonics n of their sum have 4 σ √(2π)/T e^(−(n ω σ)²/2), so the third has 0.0018 of the first.
+    By Poisson's sum they are that sine with g = WIDTH √(2π) e^(−(ω σ)²/2), and no image of it has 1e-4 of its peak. It
+    begins as suddenly as a sine does, within h: how a hand begins decides on how far the first waves move a vehicle.
     """
-    force = hand.peak * np.eye(3)[hand.axis] / (4.0 * WIDTH * math.sqrt(2.0 * math.pi))
-    force *= math.exp(0.5 * (2.0 * math.pi * WIDTH) ** 2)
-    ways = [{"force": tuple((way * force).tolist())} for way in (1.0, -1.0)]
-    bell = hover.pushes[0].model_copy(update={"sigma": WIDTH / hand.frequency, "point": hand.point})
-    times = (at + (0.5 * k + 0.25) / hand.frequency for k in range(max(1, round(2.0 * SECONDS * hand.frequency))))
-    pushes = tuple(bell.model_copy(update={"time": t, **ways[k % 2]}) for k, t in enumerate(times))
-    return hover.model_copy(update={"pushes": pushes})
+    half = max(POINTS, math.ceil(0.5 / hand.frequency / APART))
+    apart = 0.5 / hand.frequency / half
+    gain = WIDTH * math.sqrt(2.0 * math.pi) * math.exp(-0.5 * (math.pi * WIDTH / half) ** 2)
+    bell = hover.pushes[0].model_copy(update={"sigma": WIDTH * apart, "point": hand.point})
+    sine = hand.peak / gain * np.sin(math.pi / half * np.arange(half * max(1, round(2.0 * SECONDS * hand.frequency))))
+    forces = sine[:, None] * np.eye(3)[hand.axis]
+    times = (at + apart * np.arange(len(sine))).tolist()
+    each = ({"time": t, "force": tuple(F)} for t, F in zip(times, forces.tolist(), strict=True))
+    return hover.model_copy(update={"pushes": tuple(bell.model_copy(update=one) for one in each)})
 
 
 def flown_shakes(mission: Mission, hands: Sequence[Shake]) -> Iterator[tuple[bool, ShakenMotion]]:
@@ -116,24 +119,20 @@ def flown_shakes(mission: Mission, hands: Sequence[Shake]) -> Iterator[tuple[boo
 
 
 def largest_shakes(mission: Mission, hands: Sequence[Shake]) -> list[float]:
-    """The largest peak [N] that is answered of each hand, whatever its own; infinite beyond all that are tried.
-
-    It is the geometric mean of the lowest peak that is not answered and the one before it.
-    """
+    """The largest peak [N] that is answered of each hand, whatever its own; infinite beyond all that are tried."""
     levels = np.geomspace(LEAST, MOST, LEVELS) * (mission.hover.mass / PUSHED)
-    step = float(levels[1] / levels[0])
-    coarse = _first_unanswered(mission, [(hand, levels) for hand in hands])
-    finer = step ** (np.arange(1, LEVELS + 1) / LEVELS - 1.0)
-    ladders = [(hand, x * finer) for hand, x in zip(hands, coarse, strict=True) if x < math.inf]
-    fine = iter(_first_unanswered(mission, ladders))
-    return [x if x == math.inf else next(fine) * step ** (-0.5 / LEVELS) for x in coarse]
+    flown = flown_shakes(mission, [hand._replace(peak=peak) for hand in hands for peak in levels.tolist()])
+    return [end_of_answers(levels, [next(flown)[0] for _ in levels]) for _ in hands]
 
 
-def _first_unanswered(mission: Mission, ladders: Sequence[tuple[Shake, Array]]) -> list[float]:
-    """The lowest of some rising peaks that is not answered, of each hand; infinite if all are."""
-    flown = flown_shakes(mission, [hand._replace(peak=peak) for hand, peaks in ladders for peak in peaks.tolist()])
-    each = [[peak for peak in peaks.tolist() if not next(flown)[0]] for _, peaks in ladders]
-    return [min(peaks, default=math.inf) for peaks in each]
+def end_of_answers(peaks: Array, answered: Sequence[bool]) -> float:
+    """The geometric mean of the first of rising peaks that is not answered, as its next one, and the one before it.
+
+    A single one is a coincidence of the hand's phase and of noise. Infinite if there are no such two; the last alone
+    counts as two.
+    """
+    steps = zip(peaks, peaks[:1].tolist() + peaks[:-1].tolist(), answered, [*answered[1:], False], strict=True)
+    return next((math.sqrt(peak * before) for peak, before, one, after in steps if not (one or after)), math.inf)
 
 
 def shake_checks(mission: Mission) -> Iterator[CheckResult]:
