@@ -31,6 +31,11 @@ EMULATORS = {
 }
 DRAWS = {"aarch64": 20, "cortex-m7": 4}
 TABLES = ("pushes", "gusts", "walls", "legs")
+WORDS = (  # of the context, that the program sets
+    *("flight", "work", "ring", "delays", "keys", "log", "last", *TABLES),
+    *(f"{table}_count" for table in ("push", "gust", "wall", "leg")),
+    *("rings", "stride", "steps", "every", "since", "fresh", "dt", "k", "stop", "show"),
+)
 
 
 def link_object(folder: Path, name: str, compiler: Sequence[str]) -> Path:
@@ -50,9 +55,9 @@ def write_job(folder: Path, name: str, numbers: dict[str, float]) -> tuple[int, 
     header = [
         *(len(m["numbers"]), sizes["prepared"], sizes["flight"], max(sizes["work"], sizes["prepare_work"])),
         *(sizes["ring_rows"], sizes["ring_row"], sizes["sample"], len(m["delays"]), len(m["delayed"])),
-        *(m["steps"], m["every"], rows),
+        *(m["steps"], m["every"], rows, len(m["context"]["words"])),
     ]
-    places = list(range(len(m["context"]["words"])))
+    places = [m["context"]["words"].index(word) for word in WORDS]
     tables = [part for table in TABLES for part in m["prepared"][table][:2]]
     spans = [part for span in m["delayed"] for part in span]
     values = [float(numbers.get(number["key"], number["value"])) for number in m["numbers"]]

@@ -9,7 +9,8 @@ int64_t prepare(const double *numbers, double *prepared, double *work);
 int64_t fly(int64_t *context);
 
 enum {
-    NUMBERS, PREPARED, FLIGHT, WORK, RING_ROWS, RING_ROW, SAMPLE, DELAYS, SPANS, STEPS, EVERY, ROWS, WORDS, NAMED = 24
+    NUMBERS, PREPARED, FLIGHT, WORK, RING_ROWS, RING_ROW, SAMPLE, DELAYS, SPANS, STEPS, EVERY, ROWS, CONTEXT, WORDS,
+    NAMED = 25
 };
 
 static void *room(size_t count) {
@@ -30,7 +31,7 @@ int main(int argc, char **argv) {
     read_all(n, WORDS, file);
     read_all(at, NAMED, file); /* the places of the words that are set below, in this order */
     read_all(tables, 8, file);
-    int64_t *spans = room((size_t)(2 * n[SPANS])), *delays = room((size_t)n[DELAYS]), *context = room(NAMED);
+    int64_t *spans = room((size_t)(2 * n[SPANS])), *delays = room((size_t)n[DELAYS]), *context = room((size_t)n[CONTEXT]);
     double *keys = room(2), dt, *numbers = room((size_t)n[NUMBERS]);
     read_all(spans, (size_t)(2 * n[SPANS]), file);
     read_all(delays, (size_t)n[DELAYS], file);
@@ -51,7 +52,7 @@ int main(int argc, char **argv) {
         (intptr_t)prepared, (intptr_t)work, (intptr_t)ring, (intptr_t)delays, (intptr_t)keys, (intptr_t)log,
         (intptr_t)last, (intptr_t)(prepared + tables[0]), (intptr_t)(prepared + tables[2]),
         (intptr_t)(prepared + tables[4]), (intptr_t)(prepared + tables[6]), tables[1], tables[3], tables[5], tables[7],
-        n[RING_ROWS], n[ROWS] * n[SAMPLE], n[STEPS], n[EVERY], 0, 1, 0, 0, n[STEPS] + 1,
+        n[RING_ROWS], n[ROWS] * n[SAMPLE], n[STEPS], n[EVERY], 0, 1, 0, 0, n[STEPS] + 1, -1,
     };
     for (int i = 0; i < NAMED; i++) context[at[i]] = words[i];
     memcpy(&context[at[21]], &dt, 8);
