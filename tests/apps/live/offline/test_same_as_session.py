@@ -137,8 +137,9 @@ CLOCKED = {"findings", "factor", "behind_ms", "viewers", "holder", "last_grab", 
 
 
 def untimed(status):
-    """What a status says of the flight itself."""
-    return {name: plain(value) for name, value in status.items() if name not in CLOCKED}
+    """What a status says of the flight itself; its score is of sums, which are formed in another order."""
+    score = {name: round(x, 9) if isinstance(x, float) else x for name, x in (status.get("score") or {}).items()}
+    return {name: plain(value) for name, value in status.items() if name not in CLOCKED} | {"score": score}
 
 
 def check_same(session, flight, message, seconds):
