@@ -5,7 +5,7 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.analysis.certification.shakes import Shake, flown_shakes
-from tandemlift.core.vector import Absent, Vec3
+from tandemlift.core.vector import ZERO, Absent, Vec3
 from tandemlift.parts.interaction.alternation import (
     CROSSOVER,
     FORGOTTEN,
@@ -43,7 +43,7 @@ def followed(limit, push, seconds):
     for i in range(round(seconds / H)):
         value, rate = push(i * H)
         now = LowPassState(Vec3(value, 0.0, 0.0), Vec3(rate, 0.0, 0.0))
-        m = alternation_step(k, m, now, H)
+        m = alternation_step(k, m, now, ZERO, H)
     return calmed(k, m, now), now, m
 
 
@@ -134,3 +134,13 @@ def test_a_tap_beyond_what_the_reference_can_follow_is_over_when_it_is_over():
         assert flight.findings == ()
         moved[share] = np.ptp(flight["reference_position"][flight.time > 14.0, 0])
     assert moved[0.25] < moved[1e3]
+
+
+def test_the_slow_part_of_a_steady_push_is_that_at_which_the_reference_accelerates_no_more(iris):
+    mission, vehicle = iris
+    most, holds = Vec3(3.0, 3.0, 3.0), Vec3(2.0, 0.0, -1.0)
+    k, m = start_alternation(0.25, most, vehicle, hover_moments(mission.allocation, vehicle), H)
+    push = LowPassState(Vec3(9.0, -9.0, 1.0), ZERO)
+    for _ in range(4000):
+        m = alternation_step(k, m, push, holds, H)
+    assert m.slow.value == pytest.approx((5.0, -3.0, 1.0), abs=1e-3)

@@ -31,8 +31,8 @@ CROSSOVER = 14.0  # rad/s, of the attitude loop
 
 
 class Alternation(NamedTuple):
-    """The slow low-pass, and how much of a push it takes [N]; the rates at which the means grow and decay [1/s], the
-    least rate that counts, and T [N/s].
+    """The slow low-pass, and how much of a push it takes beyond what holds the speed [N]; the rates at which the means
+    grow and decay [1/s], the least rate that counts, and T [N/s].
     """
 
     slow: LowPass
@@ -60,12 +60,12 @@ def averaged(mean: Number, rate: Number, least: Number, noticing: Number, forget
 
 @law
 def alternation_step(
-    k: Alternation, memory: AlternationState, push: LowPassState[Vec3], dt: Number
+    k: Alternation, memory: AlternationState, push: LowPassState[Vec3], holds: Vec3, dt: Number
 ) -> AlternationState:
-    """The memory after a step with a push [N]."""
+    """The memory after a step with a push [N]; `holds` [N]: the push that holds the reference's speed."""
     growing, decaying = k.noticing * dt, k.forgetting * dt
     return AlternationState(
-        low_pass_step(k.slow, memory.slow, clip(push.value, -k.most, k.most)),
+        low_pass_step(k.slow, memory.slow, holds + clip(push.value - holds, -k.most, k.most)),
         averaged(memory.rises, push.rate, k.least, growing, decaying),
         averaged(memory.falls, -push.rate, k.least, growing, decaying),
     )
@@ -99,7 +99,7 @@ def start_alternation(
 
     Args:
         share: of the largest roll or pitch acceleration in hover, for which a push may ask.
-        most: the push along each axis at which the reference's acceleration is at its limit [N].
+        most: the push along each axis at which the reference's acceleration is at its limit, at rest [N].
         vehicle: as the pilot assumes it.
         moments: the largest roll and pitch moments in hover [N·m].
         step: sampling time [s].

@@ -244,7 +244,8 @@ def compliance_step(
         eased: the force by which a policy changes the damping [N, world axes], or `Absent`.
     """
     measured = low_pass_step(k.input_filter, m.measured, push)
-    alternation = alternation_step(k.alternation, m.alternation, measured, dt)
+    holds = k.admittance.damping * m.velocity
+    alternation = alternation_step(k.alternation, m.alternation, measured, holds, dt)
     filtered = calmed(k.alternation, alternation, measured)
     beyond, band = dead_band(k.band, m.band, filtered.value, enabled, dt)
     output = low_pass_step(k.output_filter, m.output, beyond)
