@@ -71,7 +71,7 @@ def arm_and_delay(axes: Any, m: Mission) -> None:
     places, (hover, at) = [(k, d) for k in arms for d in delays], hover_as_flown(m)
 
     def held(k: float, d: float) -> Mission:
-        return with_keys(hover, arm_keys(m.person, hover.initial, at, k) | {"actuators.delay": d})
+        return with_keys(hover, arm_keys(m.person, hover, at, k) | {"actuators.delay": d})
 
     calm = flown(places, held, lambda f: not stability_in_hand(f))
     line = [stiffness_limit(felt_admittance(m, {"actuators.delay": d}), m.person.damping) for d in delays]

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+import tandemlift as tl
 from tandemlift.analysis.certification import admittance_map as maps
 from tandemlift.analysis.certification import felt_admittance, flown
 from tandemlift.analysis.certification.admittance_map import acceleration_per_force, admittance_family, family_limit
@@ -17,6 +18,7 @@ from tandemlift.analysis.certification.felt_admittance import (
     stiffness_limit,
 )
 from tandemlift.analysis.certification.flown import LimitTrial, flown_limit
+from tandemlift.analysis.certification.parameters import ARM
 from tandemlift.analysis.certification.person import ArmBox, leading_impedance
 from tandemlift.analysis.linearization.claims import Claim, Tier
 from tandemlift.core.errors import InputError
@@ -269,11 +271,18 @@ def test_a_kick_and_its_watching_fit_into_the_flight():
     assert push["force"] == [0.5] * 3
     assert push["time"] - 2.0 * push["sigma"] > 12.0
     assert push["time"] + 3.0 * push["sigma"] < keys["mission.duration"] - 16.0
-    arm = flown.arm_keys(mission.person, mission.initial, 12.0, 40.0)
+    arm = flown.arm_keys(mission.person, mission, 12.0, 40.0)
     assert arm["mission.duration"] == keys["mission.duration"]
     hand = np.array(arm["person"]["path"][0]["point"])
     x, y, _ = mission.initial.position
     assert 40.0 * (hand - (x, y + mission.person.grip)) == pytest.approx([0.02, 0.02])  # N, the pull
+
+
+def test_an_arm_begins_with_its_pull_alone_where_the_centre_of_mass_is_not_the_payloads():
+    """0.02 N along x and y on the grip, wherever the payload's centre is, and whichever way the vehicle heads."""
+    odd = {"vehicle.payload.center_of_mass": [0.05, 0.2, 0.0], "initial.euler": [0.0, 0.0, 0.7]}
+    flight = tl.fly(flown.trial_of(load_mission("iris", odd), ARM).mission(10.0))
+    assert 0.02 < np.linalg.norm(flight["push_force"], axis=1).max() < 0.05
 
 
 def test_each_limit_has_a_mission_just_beyond_it():

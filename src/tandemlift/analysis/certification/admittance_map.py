@@ -90,7 +90,7 @@ def admittance_map(mission: Mission, *, fly: bool = False) -> dict[str, Any]:
     if not fly or stiffness >= LARGEST:
         return data
     hover, at = hover_as_flown(mission)
-    held = arm_keys(mission.person, hover.initial, at, stiffness)
+    held = arm_keys(mission.person, hover, at, stiffness)
     places = [(m, c) for c in grid["damping"][1::FLOWN] for m in grid["mass"][::FLOWN_MASS]]
     keys = [{**held, "admittance.mass": [m] * 3, "admittance.damping": [c] * 3} for m, c in places]
     flights = fly_many([with_keys(hover, changes) for changes in keys])

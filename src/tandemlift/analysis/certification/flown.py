@@ -20,7 +20,7 @@ from tandemlift.analysis.linearization.loop_margins import UNROUNDED, calm_missi
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array
-from tandemlift.missions import HoverFacts, InitialTable, Mission, PersonTable, check, format_toml, merge, tables_of
+from tandemlift.missions import HoverFacts, Mission, PersonTable, check, format_toml, merge, tables_of
 from tandemlift.simulation.fly import Flight, fly_many
 
 LEAST, MOST, COARSE, FINE = 0.5, 1.6, 16, 12  # factors of the predicted limit; flights that look for the limit
@@ -60,8 +60,7 @@ def trial_of(mission: Mission, name: str) -> LimitTrial:
     """
     p, (hover, at) = parameter(name), hover_as_flown(mission)
     if name == ARM:
-        start = hover.initial
-        return LimitTrial(lambda k: with_keys(hover, arm_keys(mission.person, start, at, k)), stability_in_hand, 0.0)
+        return LimitTrial(lambda k: with_keys(hover, arm_keys(mission.person, hover, at, k)), stability_in_hand, 0.0)
 
     def kicked(value: float) -> Mission:
         keys = p.keys(mission, value)
@@ -140,10 +139,12 @@ def kick_keys(hover: HoverFacts, at: float, mass_scale: float) -> dict[str, Any]
     return {"pushes": pushes, **_times(at)}
 
 
-def arm_keys(p: PersonTable, start: InitialTable, at: float, stiffness: float) -> dict[str, Any]:
+def arm_keys(p: PersonTable, hover: Mission, at: float, stiffness: float) -> dict[str, Any]:
     """The changes of a hover that is calm at a time [s], for a massless arm that holds its grip and pulls it aside."""
-    (x, y, _), yaw, aside = start.position, start.euler[2], PULL / stiffness
-    hand = x - p.grip * math.sin(yaw), y + p.grip * math.cos(yaw)
+    (x, y, _), yaw, aside = hover.initial.position, hover.initial.euler[2], PULL / stiffness
+    along, beside, _ = np.add(hover.hover.vehicle.origin, (0.0, p.grip, 0.0)).tolist()  # the grip, body axes
+    c, s = math.cos(yaw), math.sin(yaw)
+    hand = x + c * along - s * beside, y + s * along + c * beside
     place = {"point": [place + aside for place in hand], "dwell": 1e4}
     arm = {"stiffness": stiffness, "damping": p.damping, "tremor": 0.0, "max_force": 1e4}
     person = {"model": "hold", "grip": p.grip, "path": [place], "start_time": at, "delay": 0.01, **arm}
