@@ -69,7 +69,7 @@ examples: .venv/dev  ## run the scripts of examples/, whose numbers are asserted
 test-learning: .venv/dev  ## environments by Stable-Baselines3, a policy that learns, gradients by JAX and PyTorch; installs them into .venv-learning
 	test -x .venv-learning/bin/python || $(BIN)/python -m venv .venv-learning
 	.venv-learning/bin/pip install --disable-pip-version-check --quiet -e '.[gymnasium,jax,torch]' -r tools/dev.txt stable-baselines3
-	.venv-learning/bin/pytest -p no:xdist -m learning tests/analysis tests/parts
+	.venv-learning/bin/pytest -p no:xdist -m learning $$(grep -rl --include='test_*.py' 'mark\.learning' tests)  # others need more packages
 
 test-clients: .venv/dev  ## FMUs in FMPy and fmuloader, Crazyflies by cflib, MAVLink by mavsdk, Betaflight; installs them into .venv-clients
 	test -x .venv-clients/bin/python || $(BIN)/python -m venv .venv-clients
