@@ -99,15 +99,22 @@ def compared(seed: int, draws: int, mujoco: int, bases: tuple[str, ...]) -> Iter
     print(file=sys.stderr)
 
 
+def said(ratio: float) -> str:
+    """A ratio; infinite beyond all that are flown."""
+    return f"{ratio:.2f}" if ratio < math.inf else f"> {RATIOS[-1]:g}"
+
+
 def shake_table(found: list[Compared]) -> str:
     """The table of docs/reference/validation.md, after the draws that are farther off."""
     lines = ["| largest shake | draws | of them none | within 15 % | less | more |", "|---|---:|---:|---:|---:|---:|"]
     engines = [e for e in ("compiled", "mujoco") if any(x.engine == e for x in found)]
     groups = [(b, [x for x in found if (x.base, x.engine) == (b, "compiled")]) for b in sorted({x.base for x in found})]
     for name, mine in [*groups, *((f"all, {e}", [x for x in found if x.engine == e]) for e in engines)]:
-        less, more = ([f"{x.ratio:.2f}" for x in mine if (x.ratio - 1.0) * way > 0.0] for way in (-1, 1))
+        less, more = ([said(x.ratio) for x in mine if (x.ratio - 1.0) * way > 0.0] for way in (-1, 1))
         share, none = 1.0 - (len(less) + len(more)) / len(mine), sum(x.predicted == math.inf for x in mine)
-        told = (f"{len(side)}{f': {chr(44).join(side)}' if 0 < len(side) < 6 else ''}" for side in (less, more))
+        told = (f"{len(side)}" + (": " + ", ".join(side) if 0 < len(side) < 6 else "") for side in (less, more))
+            f"{len(side)}{f': {(chr(44) + chr(32)).join(side)}' if 0 < len(side) < 6 else ''}" for side in (less, more)
+        )
         lines.append(f"| {name} | {len(mine)} | {none} | {share:.1%} | {' | '.join(told)} |")
     for x in found:
         if x.ratio != 1.0:
