@@ -113,8 +113,6 @@ def shake_table(found: list[Compared]) -> str:
         less, more = ([said(x.ratio) for x in mine if (x.ratio - 1.0) * way > 0.0] for way in (-1, 1))
         share, none = 1.0 - (len(less) + len(more)) / len(mine), sum(x.predicted == math.inf for x in mine)
         told = (f"{len(side)}" + (": " + ", ".join(side) if 0 < len(side) < 6 else "") for side in (less, more))
-            f"{len(side)}{f': {(chr(44) + chr(32)).join(side)}' if 0 < len(side) < 6 else ''}" for side in (less, more)
-        )
         lines.append(f"| {name} | {len(mine)} | {none} | {share:.1%} | {' | '.join(told)} |")
     for x in found:
         if x.ratio != 1.0:
