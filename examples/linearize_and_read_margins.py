@@ -9,7 +9,7 @@ mission = tl.load_mission("iris")
 model = tl.linearize(mission)
 z = np.linalg.eigvals(model.A)
 poles = np.log(z[abs(z) > 1e-3]) / model.step  # 1/s
-assert (len(model.states), model.step) == (390, 0.005)
+assert (len(model.states), model.step) == (402, 0.005)
 assert abs(z).max() < 1.0 + 1e-9
 
 checks = {(check.check, check.subject): check for check in tl.check(mission)}
