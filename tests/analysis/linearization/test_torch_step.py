@@ -15,12 +15,9 @@ from tandemlift.core.errors import InputError
 
 pytestmark = [
     pytest.mark.learning,
-    *(
-        pytest.mark.filterwarnings(
-            f"ignore:{own}"
-        )  # PyTorch's own uses, DeprecationWarning in 2.6, FutureWarning in 2.14
-        for own in ("`torch.jit.script` is deprecated", "The .grad attribute of a Tensor that is not a leaf")
-    ),
+    # PyTorch's own uses; the first is a DeprecationWarning in 2.6, a FutureWarning in 2.14
+    pytest.mark.filterwarnings("ignore:`torch.jit.script` is deprecated"),
+    pytest.mark.filterwarnings("ignore:The .grad attribute of a Tensor that is not a leaf"),
 ]
 
 PUSHES = torch.from_numpy(np.random.default_rng(3).uniform(-2.0, 2.0, (4, 3)))

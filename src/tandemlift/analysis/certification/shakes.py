@@ -128,8 +128,8 @@ def largest_shakes(mission: Mission, hands: Sequence[Shake]) -> list[float]:
 def end_of_answers(peaks: Array, answered: Sequence[bool]) -> float:
     """The geometric mean of the first of rising peaks that is not answered, as its next one, and the one before it.
 
-    A single one is a coincidence of the hand's phase and of noise. Infinite if there are no such two; the last alone
-    counts as two.
+    A single one is a coincidence of the hand's phase and of noise. The first peak, if that is such a one; infinite if
+    there is none. The last alone counts as two.
     """
     steps = zip(peaks, peaks[:1].tolist() + peaks[:-1].tolist(), answered, [*answered[1:], False], strict=True)
     return next((math.sqrt(peak * before) for peak, before, one, after in steps if not (one or after)), math.inf)
