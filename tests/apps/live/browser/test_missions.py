@@ -45,7 +45,7 @@ def test_the_menu_flies_another_mission_on_every_page(page, live):
     page.select_option("#missions", "iris")
     until(lambda: has_said(page, "Flying iris"), "a notice")
     flown(live, "iris")
-    until(lambda: page.text_content("#mode") == "on the ground", "iris on its feet")
+    until(lambda: page.text_content("#mission") == "iris", "its scene")
     assert page.input_value("#missions") == "iris"
 
 
