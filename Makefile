@@ -5,7 +5,7 @@ BIN := .venv/bin
 PIP := $(BIN)/pip install --disable-pip-version-check $$(test -t 2 || echo --quiet)
 GAZEBO_ROOT ?= $(CURDIR)/.venv-gazebo
 
-.PHONY: run live page docs docs-quick test check quick lint types imports tests examples test-learning test-clients test-ros2 test-pythons test-lowest test-distributions release test-gazebo test-targets validate random-missions mutation-check bench compare-engines bench-peers lock clean help
+.PHONY: run live page docs docs-quick test test-all check quick lint types imports tests tests-thorough examples test-learning test-clients test-ros2 test-pythons test-lowest test-distributions release test-gazebo test-targets validate random-missions mutation-check bench compare-engines bench-peers lock clean help
 
 help:            ## list the targets
 	@grep -E '^[a-z-]+: .*##' Makefile | sed -E 's/:[^#]*## */\t/' | expand -t 16
@@ -16,7 +16,9 @@ run: .venv/run   ## fly the paper's mission and write out/paper
 live: .venv/run  ## push it by hand, in the browser
 	$(BIN)/tandemlift live
 
-test: lint types imports tests   ## lint, types, import directions, all tests
+test: lint types imports tests   ## lint, types, import directions, and the tests that show that all works here: some 5 minutes
+
+test-all: test tests-thorough  ## and those that take long
 
 page: .venv/run web/node_modules/.package-lock.json  ## build the live page from web/, checked and tested (needs Node.js 20)
 	$(BIN)/python tools/wire_types.py
@@ -47,11 +49,16 @@ types: .venv/dev ## type checker
 imports: .venv/dev  ## imports go downward only
 	$(BIN)/lint-imports
 
-tests: .venv/dev ## all tests
-	@# a process for each core, whose threads of linear algebra would only wait, and one more: some tests wait for pages;
-	@# bytecode is kept, whatever the shell says: tests start hundreds of processes;
-	@# a file stays in one process, which makes its fixtures once
-	PYTHONDONTWRITEBYTECODE= OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n $$(( $$(getconf _NPROCESSORS_ONLN) + 1 )) --dist loadfile --no-loadscope-reorder
+# a process for each core, whose threads of linear algebra would only wait, and one more: some tests wait for pages;
+# bytecode is kept, whatever the shell says: tests start hundreds of processes;
+# a file stays in one process, which makes its fixtures once
+PYTEST = PYTHONDONTWRITEBYTECODE= OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n $$(( $$(getconf _NPROCESSORS_ONLN) + 1 )) --dist loadfile --no-loadscope-reorder
+
+tests: .venv/dev ## the first tier of tests
+	$(PYTEST) --tier first
+
+tests-thorough: .venv/dev  ## the second: what takes long
+	$(PYTEST) --tier thorough
 
 quick: .venv/dev ## files of tests that were quick when they ran last; the first run, or `make tests`, learns which
 	OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n auto -q --quick --dist loadfile --no-loadscope-reorder

@@ -37,14 +37,24 @@ hypothesis.settings.load_profile("tandemlift")
 
 
 def pytest_addoption(parser):
-    """Let `make quick` ask for quick tests."""
+    """Let `make quick` ask for quick tests, `make tests` and `make tests-thorough` for one tier."""
     parser.addoption("--quick", action="store_true", help="only files whose tests were quick when they ran last")
+    parser.addoption("--tier", choices=("first", "thorough"), help="only tests without, or with, the mark `thorough`")
 
 
 def pytest_configure(config):
     """Learn which files are quick, where that can be kept."""
     if hasattr(config, "cache"):
         config.pluginmanager.register(Quick(config))
+
+
+def pytest_collection_modifyitems(config, items):
+    """Leave out the tests of the other tier."""
+    if tier := config.getoption("tier"):
+        other = [one for one in items if (one.get_closest_marker("thorough") is None) != (tier == "first")]
+        config.hook.pytest_deselected(items=other)
+        left_out = set(other)
+        items[:] = [one for one in items if one not in left_out]
 
 
 def pytest_collection_finish():
