@@ -27,6 +27,8 @@ from tandemlift.missions import load_mission
 from tandemlift.parts.controllers.user_controller import load_controller
 from tandemlift.pictures.report.study.certificate_report import write_certificate
 
+pytestmark = pytest.mark.thorough
+
 W = np.geomspace(0.01, 100.0, 600)
 
 

@@ -120,6 +120,7 @@ def test_an_arm_below_its_limit_holds_a_vehicle_calmly_at_any_heading():
     assert np.abs(flight["push_force"]).max() < 0.05
 
 
+@pytest.mark.thorough
 def test_models_of_other_masses_and_dampings_follow_from_three():
     mission = load_mission("iris")
     family, own = admittance_family(mission), (2.0, 3.0)
@@ -139,6 +140,7 @@ def test_tolerated_speeds_of_three_and_a_half_kilograms(region, speed):
     assert tolerated_speed(REGIONS[region], 3.5) == pytest.approx(speed, abs=0.005)
 
 
+@pytest.mark.thorough
 def test_the_tier_names_the_arm_of_the_mission_as_its_bar():
     mission = load_mission("iris")
     claims = {c.quantity: c for c in person_tier(mission, ArmBox()).claims}

@@ -31,6 +31,8 @@ from tandemlift.analysis.linearization.loop_margins import calm_mission
 from tandemlift.apps.cli.main import cli
 from tandemlift.missions import check, load_mission, mission_from_text, tables_of
 
+pytestmark = pytest.mark.thorough
+
 ROOM = (2.0, 1.5, 1.0)
 TRUTH = {"pilot.state": "truth", "pilot.push": "truth", "estimator.identify_mass": False}
 

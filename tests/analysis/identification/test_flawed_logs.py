@@ -45,7 +45,7 @@ PUSHES = [  # of five, between which hardly a window is calm
     )
 ]
 ONE = {"force": [3.0, 3.0, 2.0], "time": 22.5, "sigma": 0.4}
-pytestmark = pytest.mark.filterwarnings("ignore::tandemlift.FlightWarning")
+pytestmark = [pytest.mark.filterwarnings("ignore::tandemlift.FlightWarning"), pytest.mark.thorough]
 
 
 def flown(*pushes):

@@ -201,6 +201,7 @@ def test_biases_that_walk_within_a_window_widen_the_intervals(log):
     assert 0.75 < np.std(off) < 1.25
 
 
+@pytest.mark.thorough
 def test_outliers_gaps_and_clocks_of_their_own_change_little(log, found):
     """Offsets and drifts of the sources' clocks are found beside the vehicle; the correlation does not see 1.3 ms."""
     chance, bad = np.random.default_rng(3), {}
@@ -244,6 +245,7 @@ def test_gaps_of_a_stream_cost_no_more_than_their_windows(log, tmp_path):
     assert write_identification(told, tmp_path).is_file()
 
 
+@pytest.mark.thorough
 def test_the_estimate_is_that_of_scipy_on_a_plain_model(log):
     known = {key: value for key, value in TRUTH.items() if "thrust" not in key}
     start = load_mission(START, known | {"vehicle.drag.force": 0.0, "vehicle.drag.moment": 0.0, "ground.effect": False})
@@ -276,6 +278,7 @@ def test_a_calm_hover_excites_no_drag_and_says_so(log):
     assert drag.key in next(text for text in calm.remarks if "did not excite" in text)
 
 
+@pytest.mark.thorough
 def test_in_moving_air_the_drag_area_of_the_payload_is_found():
     """A slow motion along x tells the area there, apart from a linear drag; nothing tells that along the beam."""
     air, slow = {"wind.model": "air"}, {"axis": "x", "frequency": 0.15, "amplitude": 0.5, "phase": 0.0}
@@ -305,6 +308,7 @@ def test_without_joints_and_scale_masses_and_thrust_constants_are_a_pair(log):
     assert ratio == pytest.approx(truth["mass"] / truth["vehicle.quadrotors.0.thrust_constant"], rel=0.01)
 
 
+@pytest.mark.thorough
 def test_without_joints_and_scale_pushes_of_a_force_gauge_tell_masses_and_yaw_drag(flight):
     """A doublet along x and one that turns, flown by MuJoCo; the gauge logs force and moment."""
     ways = [([3.0, 0.0, 0.0], [0.0, 0.0, 0.0]), ([0.0, 0.0, 3.0], [0.0, 0.0, 0.0]), ([3.0, 0.0, 0.0], [0.0, 0.5, 0.0])]
@@ -322,6 +326,7 @@ def test_without_joints_and_scale_pushes_of_a_force_gauge_tell_masses_and_yaw_dr
         assert found[key].half < 0.01 * truth[key], key
 
 
+@pytest.mark.thorough
 def test_bad_input_is_named(log):
     log = log.between(BEGIN, BEGIN + 9.5)
     without = Log({n: s for n, s in log.items() if n != "measured_rates"}, "half")
@@ -356,6 +361,7 @@ def test_bad_input_is_named(log):
         tl.identify(Log(still, "dead"), START, **SILENT)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("said", "wider"), [(0.0, 0.0), (0.0004, 0.0004), (None, 0.001)])
 def test_the_interval_of_a_delay_has_an_offset_of_stamps_that_nobody_knows(said, wider, log, found):
     """A log whose readings are stamped a step late: the data are those of a delay that is a step longer."""

@@ -76,6 +76,7 @@ def test_it_does_so_with_slow_and_late_sensors_and_whatever_the_log_interval_of_
     assert np.array_equal(shadow["measured_joint_force"], flight["measured_joint_force"][::10][:count])
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("name", "engine", "duration"), [("iris", "mujoco", 6.0), ("rotor-loss", "compiled", 17.0)])
 def test_it_does_so_whatever_engine_flew_and_where_a_rotor_fails(name, engine, duration):
     if engine == "mujoco":

@@ -29,6 +29,7 @@ def iris():
     return tl.linearize(tl.load_mission("iris"))
 
 
+@pytest.mark.thorough
 def test_the_inputs_at_the_point_have_the_mean_wind():
     changes = [{"time": 2.0, "key": "wind.velocity", "value": [2.0, 1.0, 0.0]}]
     wind = {"wind.velocity": [3.0, 0.0, 0.0], "wind.turbulence": 0.0, "changes": changes}
@@ -38,6 +39,7 @@ def test_the_inputs_at_the_point_have_the_mean_wind():
         assert model.point.u0.tolist() == model.point.y0.tolist() == velocity
 
 
+@pytest.mark.thorough
 def test_states_have_units(paper, iris):
     short = [tl.load_mission(name, {"mission.duration": 0.4}) for name in ("rotor-loss", "doorway")]
     for model in (paper, iris, *(tl.linearize(mission, 0.3, steps=1) for mission in short)):

@@ -23,6 +23,7 @@ def test_a_push_is_heard_at_the_default_point_and_the_model_says_so():
     assert any("pushes are used once the tare is over, in 2 s" in kink.text for kink in inside.kinks)
 
 
+@pytest.mark.thorough
 def test_a_tare_in_hover_is_waited_for():
     model = tl.linearize(load_mission("iris", {"estimator.tare": "hover", "supervision.model": "on"}))
     assert "Tare: over, pushes are used." in model.assumptions
@@ -52,6 +53,7 @@ def test_a_flight_without_noise_keeps_the_lag_that_it_has():
     assert not any(kink.law == "by_direction" and "noise" in kink.text for kink in model.kinks)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("axis", [0, 1])
 def test_the_model_of_a_noisy_flight_answers_a_push_as_flights_do(axis):
     """The difference of flights with and without a push, the same noise in both, in the mean over seeds."""

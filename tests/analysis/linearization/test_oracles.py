@@ -51,6 +51,7 @@ def test_the_jacobian_is_that_by_casadi(which, casadi):
     assert error.max() < 1e-9, [(rows[i], j) for i, j in np.argwhere(error > 1e-9)[:5]]
 
 
+@pytest.mark.thorough
 def test_the_jacobian_along_a_random_direction_is_that_by_jax(jax):
     """Of all columns at once: JAX evaluates operation by operation, for XLA compiles a whole step for minutes."""
     name, changes, at = POINTS["paper, pushed along x and tilted"]

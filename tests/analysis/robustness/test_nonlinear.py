@@ -153,6 +153,7 @@ def bounds_of(mission):
     return nonlinear.OffsetBounds(loop_of("iris"), mission.allocation.priorities, axes)
 
 
+@pytest.mark.thorough
 def test_no_state_on_the_edge_of_a_region_is_lost_in_flight():
     """Six random mixtures of offsets, each on the edge of the region, with every nonlinearity and all axes at once."""
     rng, bounds = np.random.default_rng(6), bounds_of(load_mission("iris"))
@@ -169,6 +170,7 @@ def test_flights_far_beyond_a_region_are_lost():
     assert flights_of("iris").recovers({})
 
 
+@pytest.mark.thorough
 def test_the_tier_of_iris_is_complete_and_its_limits_are_flown_beyond():
     tier = tier_of_iris()
     assert tier.reason == ""
@@ -193,6 +195,7 @@ def test_a_rotor_that_hovers_at_a_limit_is_named():
         bounds_of(tilted)
 
 
+@pytest.mark.thorough
 def test_a_hover_that_is_not_stable_has_a_reason_and_keeps_the_boxes():
     tier = nonlinear_tier(load_mission("iris", {"actuators.delay": 0.09}))
     assert {c.quantity for c in tier.claims} == {"finite thrusts", "thrusts within limits"}

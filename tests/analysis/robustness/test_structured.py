@@ -55,6 +55,7 @@ def unstable(values):
     return growing(iris(), values)[0] > ON_CIRCLE
 
 
+@pytest.mark.thorough
 def test_no_corner_of_the_guaranteed_box_is_unstable_when_the_mission_is_linearized_there():
     rng, factor = np.random.default_rng(3), 0.98 * claim("guaranteed factor").value
     for _ in range(5):
@@ -73,6 +74,7 @@ def test_the_guarantee_ends_where_the_search_finds_oscillation():
     assert w[np.argmax(bounds)] == pytest.approx(found.frequency, rel=0.1)
 
 
+@pytest.mark.thorough
 def test_the_worst_mission_flies_to_oscillation_at_the_predicted_frequency():
     (name,) = tier().files
     mission = mission_from_text(name, tier().files[name])
@@ -103,6 +105,7 @@ def test_the_worst_of_a_mission_that_is_not_built_in_is_written_whole():
     assert worst.actuators.delay == pytest.approx(0.014)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(
     "signs",
     [{"mass": -1.0}, {"mass": -1.0, "thrust": -1.0, "lag": 1.0, "delay": 1.0, "inertia_y": 1.0}, {"thrust": 1.0}],

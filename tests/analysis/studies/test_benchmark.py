@@ -87,12 +87,14 @@ def scored(tmp_path_factory):
     return {name: benchmark.scores_of(entry, quick=True) for name, entry in entries.items()}
 
 
+@pytest.mark.thorough
 def test_a_folder_made_twice_has_the_same_bits(folders):
     first, second = ((folder / "SHA256SUMS").read_text() for folder in folders)
     assert first == second
     assert checked_folder(folders[0]) == len(first.splitlines()) == 12
 
 
+@pytest.mark.thorough
 def test_a_reader_of_parquet_alone_gets_the_numbers_of_the_baseline(folders, scored):
     table = pq.read_table(folders[0] / "observers" / "test.parquet")
     for axis in "xyz":
@@ -213,6 +215,7 @@ def test_an_entry_that_cannot_be_scored_is_named_with_its_reason(tmp_path, name)
         benchmark.scores_of(entry_of(tmp_path / name), quick=True)
 
 
+@pytest.mark.thorough
 def test_a_controller_file_is_scored_as_the_same_controller_by_name(tmp_path):
     file = tmp_path / "mine.py"
     file.write_text(CONTROLLER.replace("entry-pd", "scored-pd"))
@@ -224,6 +227,7 @@ def test_a_controller_file_is_scored_as_the_same_controller_by_name(tmp_path):
     assert row["work (J)"] is None
 
 
+@pytest.mark.thorough
 def test_a_policy_with_weights_of_zero_is_the_admittance_alone(tmp_path):
     file = tmp_path / "tuned.toml"
     file.write_text(f"[compliance.policy]\nweights = {[0.0] * 11}")
@@ -257,6 +261,7 @@ def test_steps_of_pushes_have_their_force():
     assert rms([3.0, 4.0]) == pytest.approx(math.sqrt(12.5))
 
 
+@pytest.mark.thorough
 def test_a_baseline_flown_again_has_the_numbers_that_ship(monkeypatch):
     monkeypatch.setattr(benchmark, "tasks", TASKS)
     monkeypatch.setattr(benchmark, "TABLES", COLUMNS)

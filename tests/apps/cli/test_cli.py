@@ -243,6 +243,7 @@ def test_a_lift_that_never_happens_is_a_failure(run):
     assert "iris: not-lifted: a lift of the mission" in err
 
 
+@pytest.mark.thorough
 def test_a_flight_that_diverges_in_its_first_step_is_written_and_drawn_as_any(run, tmp_path):
     code, out, err = run("run", "hover", "--set", "initial.rates=[1e200,1e200,1e200]")
     assert code == 3

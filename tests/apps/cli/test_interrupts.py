@@ -12,7 +12,7 @@ import pytest
 import slow_compiler
 from patience import COMPILING, PATIENCE, completed, until
 
-pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+pytestmark = [pytest.mark.skipif(os.name != "posix", reason="signals of POSIX"), pytest.mark.thorough]
 STOPPED = "stopped; nothing more is written"
 OWN = ("Compil", "flying", "warning")  # lines that come before it
 FLYING = """

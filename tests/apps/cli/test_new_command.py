@@ -55,6 +55,7 @@ def test_every_model_of_the_library_is_flown_here():
     assert [model for model in MODELS if model not in shown] == []
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("model", MODELS)
 def test_a_new_mission_flies_without_a_warning_and_without_a_finding(model, flown):
     _, checks, flight, _ = flown[model]
@@ -90,6 +91,7 @@ def test_what_is_told_of_thrusts_is_what_a_flight_shows(model, flown):
     assert 4.0 * sum(limits) / thrusts.sum() == pytest.approx(over, rel=0.03)
 
 
+@pytest.mark.thorough
 def test_the_heaviest_beam_is_accepted_and_a_heavier_one_refused_with_what_would_lift_it(new, tmp_path):
     """Off its middle the near quadrotor carries more: by the lever law, half of all and c/L of the beam."""
     code, told, _ = new("a.toml", "--center", 0.2)

@@ -8,6 +8,8 @@ import pytest
 
 from tandemlift.apps.clients.crazyflie.commander import GENERIC
 
+pytestmark = pytest.mark.thorough
+
 COUNT, TOGETHER = 10_000, 100  # packets of each kind; those that come between two setpoints
 ANSWERED = {15: (0, 1, 3), 13: (1,), 2: (0, 1, 2, 3), 4: (0, 1, 2), 5: (0, 1), 6: (0, 1), 7: (1,), 8: (0,), 9: (0,)}
 LENGTHS = {6: 28, 7: 16, 8: 16, 9: 16, 10: 16, 11: 15}  # of setpoints of port 7, after their type

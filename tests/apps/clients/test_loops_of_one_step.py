@@ -174,6 +174,7 @@ def test_the_state_of_each_is_that_of_its_place_on_the_turning_body():
         assert one.specific_force == pytest.approx(rotation.inv().apply([0.0, 0.0, GRAVITY]))
 
 
+@pytest.mark.thorough
 def test_a_setpoint_is_flown_until_it_is_old_then_the_quadrotor_levels_out_and_stops():
     quads, weight = quadrotors(), vehicle().weight
     for i in range(2):

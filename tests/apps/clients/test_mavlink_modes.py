@@ -10,6 +10,8 @@ from pymavlink.dialects.v20 import common as mavlink
 
 from tandemlift.apps.clients.mavlink.modes import HOLD, LAND, OFFBOARD, TAKEOFF
 
+pytestmark = pytest.mark.thorough
+
 TAKE_OFF, UNUSED = mavlink.MAV_CMD_NAV_TAKEOFF, [math.nan] * 6
 
 

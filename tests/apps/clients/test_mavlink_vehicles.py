@@ -74,6 +74,7 @@ def test_a_second_client_hears_all_and_flies_only_once_the_first_is_gone(world):
     assert second.texts().count("setpoints: another client sends them") <= 3
 
 
+@pytest.mark.thorough
 def test_setpoints_of_nan_and_beyond_all_limits_do_not_end_a_flight(world):
     world.take_off(4.0)
     world.offboard(lambda client: client.go_to(0.0, 0.0, -4.0), 0.5)
@@ -121,6 +122,7 @@ def _offset(made, name):
     return struct.calcsize("<" + "".join(fields[: made.ordered_fieldnames.index(name)]))
 
 
+@pytest.mark.thorough
 def test_ten_thousand_hostile_packets_of_each_kind_do_not_end_a_flight(world):
     world.take_off()
     rng = random.Random(5)

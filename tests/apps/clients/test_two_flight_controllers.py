@@ -8,6 +8,8 @@ from tandemlift.apps.clients.cascade import Demand
 from tandemlift.apps.clients.one_body import together
 from tandemlift.apps.clients.setpoints import EstimateError, PositionSetpoint, QuadrotorState
 
+pytestmark = pytest.mark.thorough
+
 
 def test_shared_loops_hold_a_hover_within_5_cm():
     flight = hover("shared", 40.0)

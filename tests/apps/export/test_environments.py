@@ -131,6 +131,7 @@ def test_a_crash_terminates_and_says_so():
     assert info["findings"]
 
 
+@pytest.mark.thorough
 def test_where_a_rotor_is_lost_staying_in_the_air_pays_more_than_landing():
     env = FlightVectorEnv("RotorLoss", 2)
     keys = {**env.task.keys, "mission.duration": 15.0}

@@ -13,7 +13,7 @@ from tandemlift.apps.export.reading import read_bag
 from tandemlift.apps.export.write import export
 from tandemlift.flight.channels import STAMP, stamp_of
 
-pytestmark = pytest.mark.filterwarnings("ignore::tandemlift.FlightWarning")
+pytestmark = [pytest.mark.filterwarnings("ignore::tandemlift.FlightWarning"), pytest.mark.thorough]
 PUSH = {"force": [3.0, 1.0, 0.0], "time": 0.6, "sigma": 0.1, "point": [0.0, 0.3, 0.0]}
 FLOWN = {
     "mission.duration": 1.2,

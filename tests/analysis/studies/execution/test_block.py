@@ -245,6 +245,7 @@ def test_all_flights_over_is_said():
     assert block.time.tolist() == pytest.approx([0.05, 0.003])
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("name", "begin"), [("iris", 13.0), ("zigzag", 5.007)])
 def test_flights_that_are_handed_over_later_equal_those_that_were_flown_there(name, begin):
     keys = {"mission.duration": begin + 2.0}

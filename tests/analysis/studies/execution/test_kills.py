@@ -29,6 +29,7 @@ def whole(tmp_path_factory):
     return folder
 
 
+@pytest.mark.thorough
 def test_a_study_that_is_killed_goes_on_with_the_chunks_that_are_missing(whole, tmp_path):
     moments = random.Random(SEED)
     for _ in range(2):
@@ -44,6 +45,7 @@ def test_a_study_that_is_killed_goes_on_with_the_chunks_that_are_missing(whole, 
     assert_same_rows(whole, tmp_path)
 
 
+@pytest.mark.thorough
 def test_two_processes_on_one_folder_share_its_chunks(whole, tmp_path):
     both = [started(LONGER, tmp_path) for _ in range(2)]
     flown = [int(process.communicate(timeout=PATIENCE)[0].split()[-1]) for process in both]
@@ -82,6 +84,7 @@ def test_worker_processes_end_with_the_process_that_started_them(number):
     assert ended(process, number) != 0, "returns when nobody holds its output any more, workers included"
 
 
+@pytest.mark.thorough
 def test_processes_and_threads_of_any_executor_give_the_same_rows(flown_twelve, tmp_path):
     with worker_processes(2) as processes:
         assert fly(TWELVE, tmp_path / "processes", executor=processes) == 12

@@ -115,6 +115,7 @@ def test_a_key_that_is_set_is_not_drawn_in_whatever_form_it_is_given(changes):
     assert [set(draw.changes) for draw in draws] == [{"plant.mass_scale", "mission.seed"}] * 2
 
 
+@pytest.mark.thorough
 def test_a_bad_start_is_left_because_bad_outcomes_count_first():
     """From the paper's gains, with which the vehicle turns over on its rotors, to ones that fly."""
     paper = {key: getattr(tl.load_mission("paper").controller.gains, key) for key in ("xi", "lambda_1", "lambda_2")}
@@ -213,6 +214,7 @@ def test_a_search_that_was_stopped_goes_on_in_its_folder_with_the_bits_of_one_th
     assert len(flown) == 48 + 48 + 48 + 48
 
 
+@pytest.mark.thorough
 def test_what_a_search_had_found_is_on_disk_when_it_is_killed(tmp_path):
     """By SIGKILL, which no program can handle."""
     mission = tmp_path / "short.toml"
@@ -319,6 +321,7 @@ def trained():
     return tl.train("iris", **SHORT)
 
 
+@pytest.mark.thorough
 def test_a_short_training_saves_other_persons_work_and_force(trained):
     assert trained.is_better
     work, force = trained.evidence.comparisons
