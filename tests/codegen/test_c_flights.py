@@ -28,6 +28,7 @@ def test_a_short_flight_in_c_has_the_bits_of_the_native_one(tmp_path):
     assert lost > 0  # so a flight that diverges was compared too
 
 
+@pytest.mark.thorough
 def test_a_flight_that_strikes_a_wall_hard_has_the_bits_of_the_native_one_in_c(tmp_path):
     wall = upright((-1.0, 0.3), (1.0, 0.3), -0.2)
     mission = unfused(thrown({"initial.velocity": [0.3, 0.0, -8.0], "walls": [wall, upright((1, -3), (1, 3))]}, 0.1))
@@ -84,6 +85,7 @@ int tables_differ(void)
 """
 
 
+@pytest.mark.thorough
 def test_walls_and_legs_of_a_path_keep_their_constant_numbers_when_numbers_are_prepared(tmp_path):
     mission = mission_of("zigzag")
     files = written(code_texts(mission), tmp_path)

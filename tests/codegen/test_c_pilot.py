@@ -106,6 +106,7 @@ def test_a_number_that_is_not_finite_changes_nothing_as_in_the_native_pilot(wron
         assert in_c.takes
 
 
+@pytest.mark.thorough
 def test_with_supervision_a_number_that_is_not_finite_stays_out_of_the_memory(tmp_path):
     need("gcc")
     mission = unfused(tl.load_mission("iris", {"pilot.guidance": "interactive", "supervision.model": "on"}))

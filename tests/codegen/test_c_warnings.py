@@ -15,6 +15,8 @@ from tandemlift.codegen.c_package import code_texts, written
 from tandemlift.missions import built_in
 from tools import need
 
+pytestmark = pytest.mark.thorough
+
 CORTEX_M7 = ("-mcpu=cortex-m7", "-mthumb", "-mfpu=fpv5-d16", "-mfloat-abi=hard")
 COMPILERS = {"gcc": (), "clang": (), "aarch64-linux-gnu-gcc": (), "arm-none-eabi-gcc": CORTEX_M7}
 

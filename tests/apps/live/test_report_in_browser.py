@@ -10,6 +10,8 @@ from tandemlift.apps.live.replay import report_replay
 from tandemlift.pictures.figures.registry import save_figures
 from tandemlift.pictures.report.flight_report import write_report
 
+pytestmark = pytest.mark.thorough
+
 LOOKS = """() => [...document.querySelectorAll("#plots .uplot")].map((plot) => Object.fromEntries(
   [...plot.querySelectorAll(".u-series")].slice(1).map((one) => [
     one.querySelector(".u-label").textContent, one.querySelector(".u-marker").style.border])))"""

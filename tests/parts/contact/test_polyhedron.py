@@ -110,6 +110,7 @@ def test_a_plate_on_the_top_of_a_short_wall_under_its_middle_is_held_up_by_its_f
     )  # at both ends of the wall
 
 
+@pytest.mark.thorough
 def test_a_plate_thrown_into_a_room_with_a_short_wall_stays_there_and_gains_no_energy():
     box = (("vehicle.payload.shape", "box"), ("vehicle.payload.size", [1.5, 1.2, 0.04]))
     corners = [(-2.5, -2.5), (2.5, -2.5), (2.5, 2.5), (-2.5, 2.5)]

@@ -1,6 +1,7 @@
 """The buttons below the picture."""
 
 import numpy as np
+import pytest
 from chromium import has_said
 from patience import until
 
@@ -56,6 +57,7 @@ def test_a_name_that_is_refused_says_why_in_the_dialog_and_what_another_one_has_
         np.testing.assert_array_equal(saved[channel], again[channel], channel)
 
 
+@pytest.mark.thorough
 def test_in_the_air_stop_asks_first_and_cancel_and_escape_fly_on(page, live):
     question = page.get_by_role("dialog", name="Stop all rotors?")
     for answer in (page.get_by_role("button", name="Cancel").click, lambda: page.keyboard.press("Escape")):
@@ -68,6 +70,7 @@ def test_in_the_air_stop_asks_first_and_cancel_and_escape_fly_on(page, live):
     assert live.status["phase"] in ("guided", "hold")
 
 
+@pytest.mark.thorough
 def test_on_the_ground_stop_asks_nothing_and_a_landing_answers_the_question(page, live):
     page.get_by_role("button", name="Stop").click()
     assert page.locator("#question").is_visible()
@@ -90,6 +93,7 @@ def test_it_lands_is_reset_and_the_page_begins_anew(page, live):
     live.wait_status(lambda status: status["phase"] in ("guided", "hold"), "hover")
 
 
+@pytest.mark.thorough
 def test_a_reset_leaves_nothing_of_the_plots_before_it(page, live):
     tools = page.context.new_cdp_session(page)
 

@@ -1,8 +1,11 @@
 """The beam pushed by keys and gamepad."""
 
 import numpy as np
+import pytest
 from chromium import opened, panel, rests
 from patience import until
+
+pytestmark = pytest.mark.thorough
 
 
 def test_a_key_pushes_with_the_force_that_is_stated(page, live):

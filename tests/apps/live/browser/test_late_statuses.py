@@ -5,6 +5,8 @@ import pytest
 from chromium import middle_of_the_beam, opened, rests, with_still_camera
 from patience import until
 
+pytestmark = pytest.mark.thorough
+
 LATE = """() => {
   // while `late` is a list, texts of the kind `kept` are kept in it; frames come on time
   window.late = null;

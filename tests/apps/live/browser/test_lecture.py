@@ -4,6 +4,8 @@ import pytest
 from chromium import dropped, panel
 from patience import until
 
+pytestmark = pytest.mark.thorough
+
 SCRIPT = """
 [[steps]]
 text = "Still."

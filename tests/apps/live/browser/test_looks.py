@@ -11,6 +11,8 @@ import tandemlift as tl
 from tandemlift.apps.live.page_files import page_files
 from tandemlift.apps.live.replay import replay_html
 
+pytestmark = pytest.mark.thorough
+
 PHONES = [(360, 740), (740, 360)]
 LONG = "narrow-zigzag-with-a-slow-person"
 FINGER = 40  # pixels

@@ -6,6 +6,8 @@ from patience import until
 
 import tandemlift as tl
 
+pytestmark = pytest.mark.thorough
+
 MINE = 'extends = "hover"\n[mission]\nname = "mine"\n[admittance]\nmass = 2.5\n'
 DROP = """([name, text]) => {
   const dataTransfer = new DataTransfer();

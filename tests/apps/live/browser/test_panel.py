@@ -1,7 +1,10 @@
 """Parameters and rotors in the panel."""
 
+import pytest
 from chromium import opened, panel
 from patience import until
+
+pytestmark = pytest.mark.thorough
 
 
 def test_a_refused_setting_says_why_and_shows_what_it_was(page, live):

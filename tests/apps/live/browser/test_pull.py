@@ -3,6 +3,7 @@
 import re
 
 import numpy as np
+import pytest
 from chromium import grabbed, has_said, middle_of_the_beam, opened, panel, rests, with_still_camera
 from patience import until
 from scipy.spatial.transform import Rotation
@@ -36,6 +37,7 @@ def test_grabbed_and_pulled_the_beam_follows_the_cursor_and_rests_when_it_is_let
     live.wait(rests, "rest after release")
 
 
+@pytest.mark.thorough
 def test_one_holds_the_beam_at_a_time_and_a_page_that_is_closed_lets_go(page, live, browser):
     live.wait(rests, "rest")
     other = opened(browser, live.address)
@@ -59,6 +61,7 @@ def test_one_holds_the_beam_at_a_time_and_a_page_that_is_closed_lets_go(page, li
     live.wait(rests, "rest")
 
 
+@pytest.mark.thorough
 def test_who_looks_away_lets_go(page, live):
     live.wait(rests, "rest")
     page.mouse.move(*middle_of_the_beam(page))
@@ -69,6 +72,7 @@ def test_who_looks_away_lets_go(page, live):
     page.mouse.up()
 
 
+@pytest.mark.thorough
 def test_the_wheel_moves_the_target_away_from_who_looks(page, live):
     grabbed(page, live)
     before = live.look()["hand_target"]
@@ -78,6 +82,7 @@ def test_the_wheel_moves_the_target_away_from_who_looks(page, live):
     live.wait(rests, "rest")
 
 
+@pytest.mark.thorough
 def test_pulled_at_the_centre_of_mass_the_hand_is_there(page, live):
     panel(page, "admittance.mass")  # opens the panel
     page.get_by_text("centre of mass", exact=True).click()
@@ -89,6 +94,7 @@ def test_pulled_at_the_centre_of_mass_the_hand_is_there(page, live):
     live.wait(rests, "rest")
 
 
+@pytest.mark.thorough
 def test_a_finger_pulls_as_a_mouse_does(page, live):
     live.wait(rests, "rest")
     x, y = middle_of_the_beam(page)
@@ -108,6 +114,7 @@ def test_a_finger_pulls_as_a_mouse_does(page, live):
     live.wait(rests, "rest")
 
 
+@pytest.mark.thorough
 def test_two_pages_take_turns(page, live, browser):
     live.wait(rests, "rest")
     other = opened(browser, live.address)
@@ -151,6 +158,7 @@ def test_a_hand_that_shakes_pushes_to_and_fro_and_lets_go(page, live):
     page.get_by_role("button", name="Push", exact=True).click()
 
 
+@pytest.mark.thorough
 def test_a_tap_pushes_away_from_who_looks_and_holds_nothing(page, live):
     live.wait(rests, "rest")
     page.get_by_role("button", name="Tap").click()

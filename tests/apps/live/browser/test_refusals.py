@@ -3,8 +3,11 @@
 import re
 from itertools import combinations
 
+import pytest
 from chromium import grabbed, has_said, opened, stopped
 from patience import until
+
+pytestmark = pytest.mark.thorough
 
 TARED, BAD = '"tare_left_s":1.4', '"findings":[{"kind":"touched","time":7.2,"text":"the beam touched a wall"}]'
 OVER = "#views, #hint, #notices p, #refusal, #dock .strip"

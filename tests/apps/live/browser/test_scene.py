@@ -2,8 +2,11 @@
 
 import re
 
+import pytest
 from chromium import SIZE, panel, rests
 from patience import until
+
+pytestmark = pytest.mark.thorough
 
 
 def test_a_push_below_the_threshold_says_how_much_is_missing_and_the_menu_is_remembered(page, live):

@@ -7,6 +7,8 @@ from patience import until
 from tandemlift.apps.live import pages
 from tandemlift.apps.live.page_files import page_files
 
+pytestmark = pytest.mark.thorough
+
 UPRIGHT, LYING = {"width": 390, "height": 844}, {"width": 844, "height": 390}
 TOUCH = {"has_touch": True, "is_mobile": True}
 CUT = """() => [...document.querySelectorAll("#dock button span, #dock dd")]

@@ -6,6 +6,8 @@ from own_flight import OwnFlight, check_done, check_flies_again
 
 from tandemlift.apps.live.page_modules import packed_mission, page_mission
 
+pytestmark = pytest.mark.thorough
+
 BEFORE = (
     ("force", {"force": (0.0, 1.2, 0.0), "point": (0.0, 0.0, 0.0)}, 0.6),
     ("set", {"key": "person.stiffness", "value": 8.0}, 0.3),

@@ -1,11 +1,14 @@
 """Two flights under one hand on the page: kept, told in words and plots, swapped, saved, ended."""
 
 import numpy as np
+import pytest
 from chromium import aloft, panel, paused, pushed, save
 from own_flight import check_flies_again
 from patience import until
 
 import tandemlift as tl
+
+pytestmark = pytest.mark.thorough
 
 WIDE = {"width": 1920, "height": 1080}
 

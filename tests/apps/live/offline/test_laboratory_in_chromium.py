@@ -1,11 +1,14 @@
 """The page as a laboratory, used by a real mouse and real fingers: plots, timeline, rewinding, undo."""
 
 import numpy as np
+import pytest
 from chromium import aloft, opened, panel, paused, pushed, resized, save, seconds_flown
 from own_flight import check_flies_again
 from patience import until
 
 import tandemlift as tl
+
+pytestmark = pytest.mark.thorough
 
 NOW = "#time button[title^='The last seconds']:not([hidden])"  # without its word on a phone
 WIDE, PHONE = {"width": 1280, "height": 800}, {"width": 390, "height": 844}

@@ -11,6 +11,8 @@ from repository import ROOT
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli
 
+pytestmark = pytest.mark.thorough
+
 HALL = {"width": 1920, "height": 1080}
 TYPE = """() => {
   const own = (e) => [...e.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim());

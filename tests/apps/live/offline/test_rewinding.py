@@ -7,6 +7,8 @@ from sessions import fly, say, seen
 
 import tandemlift as tl
 
+pytestmark = pytest.mark.thorough
+
 GRAB = {"point": (0.1, 0.4, 0.0), "target": (0.3, 0.2, 1.2), "at": "point"}
 PAST = (
     ("grab", GRAB, 0.7),
