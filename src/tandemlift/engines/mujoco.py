@@ -6,6 +6,7 @@ on the parts are held: forces in world axes, moments in body axes (the quadrotor
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -16,12 +17,12 @@ from tandemlift.engines.models.mujoco_bodies import model_of
 from tandemlift.engines.models.mujoco_contact import touching_parts
 from tandemlift.engines.models.mujoco_import import mujoco
 from tandemlift.engines.models.scene import Scene
+from tandemlift.engines.mujoco_machine import UNSOUND, MachineStep, python_is_needed
 from tandemlift.engines.touches import ContactLog
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 NONE = Absent()
-UNSOUND = 1e8  # N, beyond which the flight has diverged; MuJoCo takes a command beyond 1e10 for zero
 
 
 class MuJoCoBody:
@@ -38,16 +39,34 @@ class MuJoCoBody:
         self.model = model_of(scene, vehicle, floor, walls)
         self.data = mujoco.MjData(self.model)
         N = vehicle.count
-        self.state, self.readings = np.zeros(13), np.zeros(6 * N + 6)
+        self._log, self._parts = ContactLog(floor, walls, N, scene.mission.step), touching_parts(self.model)
+        self.numbers = np.concatenate([np.zeros(6 * N + 19), self._log.numbers])
+        self.state, self.readings, self.touches = np.split(self.numbers, [13, 6 * N + 19])
+        self._log.numbers = self.touches
         self._disturbing_force = np.array(scene.disturbance.force)
         self._disturbing_moment = np.array(scene.disturbance.moment)
         self._payload, self._R = skew(vehicle.origin), np.empty((3, 3))
         self._turned = np.empty((3, N))
         self._made, self._of_rotors = rotor_loads_at_joints(vehicle), np.empty(6 * N)
-        self._log, self._parts = ContactLog(floor, walls, N, scene.mission.step), touching_parts(self.model)
-        self.touches, self._contact_load = self._log.numbers, np.zeros(6)
+        self._contact_load = np.zeros(6)
         self._view_memory(N, touching=self.model.npair > 0)
         self._set_start(scene)
+        self.machine = None if python_is_needed(self.model) else self._machine_step(scene.mission.step)
+
+    def _machine_step(self, step: float) -> MachineStep | None:
+        """The step as machine code; None without the memory or the functions that it needs."""
+        N, disturbance = len(self._thrusts) // 4, (self._disturbing_force, self._disturbing_moment)
+        moments = np.einsum("aiij->aij", self._made.reshape(2, 3, N, N, 4)[1])
+        constants = np.concatenate([*disturbance, self._payload.ravel(), moments.ravel()])
+        parts = {pair: self._log.row(*part) for pair, part in self._parts.items()}
+        with suppress(AttributeError, ValueError):
+            return MachineStep(self.model, self.data, self.numbers, self._log.touches, parts, constants, step)
+        return None
+
+    @property
+    def machine_words(self) -> int:
+        """See `registry.MachineBody`; a class with another `advance` has none."""
+        return self.machine.address if self.machine and type(self).advance is MuJoCoBody.advance else 0
 
     def _view_memory(self, N: int, *, touching: bool) -> None:
         """Make views of MuJoCo's memory and of ours, part by part, so that a step only copies."""
@@ -99,6 +118,9 @@ class MuJoCoBody:
 
     def advance(self, thrusts: Array, loads: Array, force: Array, moment: Array) -> None:
         """Advance by one step; see `registry.EngineBody`."""
+        if self.machine is not None:
+            self.machine.advance(thrusts, loads, np.concatenate([force, moment]))
+            return
         if not thrusts.dot(thrusts) < UNSOUND * UNSOUND:  # also NaN, which is below nothing
             self.state.fill(np.nan)
             self.readings.fill(np.nan)

@@ -80,6 +80,20 @@ class PushedBody(Protocol):
     pushed: Array
 
 
+@runtime_checkable
+class MachineBody(Protocol):
+    """A body that machine code can advance, without Python.
+
+    Attributes:
+        machine_words: address of an array of words; 0 if a step needs Python. The first is the address of a function
+            `void advance(words, thrusts, loads, push)`: arrays as of `EngineBody.advance`, the push with force and
+            moment, `loads` null without wind. The second is that of the numbers that it writes: state, readings and
+            touches.
+    """
+
+    machine_words: int
+
+
 Make = Callable[[Scene, Vehicle, Any, Any], EngineBody]
 
 

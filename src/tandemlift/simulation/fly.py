@@ -22,7 +22,7 @@ from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import LANES, FlightMemory
 from tandemlift.simulation.results import RawResult, flight_of, metrics_of, take_metrics
-from tandemlift.simulation.stepping import body_of, fly_stepwise
+from tandemlift.simulation.stepping import body_of, fly_stepwise, machine_words_of
 
 STRETCH = 0.1  # s of flight code between updates of the progress bar and checks for Ctrl-C
 FIRST_STRETCH = 5_000  # steps of the first stretch of code
@@ -55,13 +55,20 @@ def _fly_compiled(
     every: int,
     progress: Progress | None = None,
     going: Callable[[], bool] = always,
+    words: int = 0,
 ) -> list[RawResult]:
-    """Fly one flight, or up to LANES of one variant and grid; diverged ones are flown again alone, to stop in time."""
+    """Fly one flight, or up to LANES of one variant and grid; diverged ones are flown again alone, to stop in time.
+
+    `words`: `machine_words` of the body of one flight, if it is in another engine.
+    """
     p, count = flights[0], len(flights)
     lanes = [*flights, *[flights[-1]] * (LANES - count)] if count > 1 else flights
     starts = [f.start() for f in lanes]
-    code = p.loop_code.loop(len(lanes), going, differ=p.loop_code.parts_that_differ(starts))
+    differ = p.loop_code.parts_that_differ(starts)
+    code = p.loop_code.loop(len(lanes), going, differ=differ, leaves_body=words != 0)
     memory = FlightMemory(code, starts, p.grid(rows, every), leaves(p.sample))
+    if words:
+        memory.leave_body(words)
     began, early = time.perf_counter(), [EMPTY] * len(lanes)
     for k in _stretches(p, memory, going):
         if k == p.late_step < p.steps:
@@ -104,10 +111,11 @@ def fly(mission: MissionLike, engine: str | None = None, *, progress: Progress |
     engine = engine_of(mission.person.recording) if engine is None else engine
     p = FlightPlan(mission, engine)
     rows, body = p.steps // p.every + 1, body_of(p)
+    words = machine_words_of(body)
     with progress_or_own(mission.mission.name, progress, "steps") as shown:
-        if body is not None or p.stepwise:
+        if p.stepwise or (body is not None and not words):
             return flight_of(p, fly_stepwise(p, rows, p.every, shown, body), engine)
-        (flown,) = _fly_compiled([p], rows, p.every, shown)
+        (flown,) = _fly_compiled([p], rows, p.every, shown, words=words)
     return flight_of(p, flown, engine)
 
 

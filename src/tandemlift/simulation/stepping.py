@@ -16,7 +16,15 @@ from tandemlift.core.progress import Stopped, always
 from tandemlift.core.refusals import Refusals
 from tandemlift.core.types import Array, Progress, flat, leaves, unflat
 from tandemlift.core.vector import layout
-from tandemlift.engines.registry import EngineBody, EngineLost, PushedBody, TouchingBody, WaitingBody, engine_named
+from tandemlift.engines.registry import (
+    EngineBody,
+    EngineLost,
+    MachineBody,
+    PushedBody,
+    TouchingBody,
+    WaitingBody,
+    engine_named,
+)
 from tandemlift.flight.record import interruption
 from tandemlift.parts.controllers import control
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -47,6 +55,11 @@ def body_of(p: FlightPlan) -> EngineBody | None:
     return chosen.start(p.mission, Vehicle.from_settings(p.mission.vehicle), plant.floor, plant.walls)
 
 
+def machine_words_of(body: EngineBody | None) -> int:
+    """The `machine_words` of a body that the compiled loop can advance; 0 if Python has to."""
+    return body.machine_words if isinstance(body, MachineBody) and not isinstance(body, PushedBody) else 0
+
+
 class Stepper:
     """One flight, a step at a time.
 
@@ -67,13 +80,16 @@ class Stepper:
     def _lay_out(self, p: FlightPlan, before: FlightMemory | None = None) -> None:
         """Allocate the memory of a step; the content of the delay lines is kept."""
         self.p, self.interpreted = p, p.interpreted
-        leaves_body = self.body is not None
-        self.by_parts = leaves_body or self.interpreted is not None
-        self.code = p.loop_code.parts(leaves_body=leaves_body) if self.by_parts else p.loop_code.loop(1)
+        leaves_body, words = self.body is not None, machine_words_of(self.body)
+        self.by_parts = (leaves_body and not words) or self.interpreted is not None
+        of = p.loop_code
+        self.code = of.parts(leaves_body=leaves_body) if self.by_parts else of.loop(1, leaves_body=leaves_body)
         start = p.start()
         if before is not None:
             start = start._replace(ring=before.ring.reshape(start.ring.shape))
         self.memory = FlightMemory(self.code, [start], p.grid(1, 1), leaves(p.sample))
+        if leaves_body and not self.by_parts:
+            self.memory.leave_body(words)
         self.a, self.row = self.memory.numbers, self.memory.log[0, 0]
         self.before = self.a.copy()
         self.at_lost, self.hand = leaf_offset(p.model, "flight_state", "ended").at, hand_place(p)

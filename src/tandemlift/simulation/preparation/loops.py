@@ -11,6 +11,7 @@ from collections.abc import Callable
 
 from tandemlift.compiler.tracer import LEAVES, Function, Place, Symbol, double
 from tandemlift.simulation.loop.external_inputs import SPAN
+from tandemlift.simulation.loop.sources import leaf_offset
 from tandemlift.simulation.preparation import precompute
 from tandemlift.simulation.preparation.limit_solver import write_limits, write_solver
 from tandemlift.simulation.preparation.step_end import write_early, write_estimates, write_next_state, write_sample
@@ -71,14 +72,38 @@ class LoopWriter(StepWriter):
 
     def step_body(self, f: Function) -> None:
         """Move the body over the step."""
-        if not self.traced.body_in_free_air:
+        if not self.moves_body:
+            self._call_body(f)
+        elif not self.traced.body_in_free_air:
             if self.graph.rolls_from or self.largest:
                 f.update("%work", self.moved, self.traced.body_in_contact)
             elif f.orders:
                 f.same |= {self.graph.input("moved", i).node: s.node for i, s in enumerate(self.traced.body_in_contact)}
             else:
                 f.read["moved"] = lambda i: f.value(self.traced.body_in_contact[i])  # computed where it is read
-            return
+        else:
+            self._step_chosen_body(f)
+
+    def _call_body(self, f: Function) -> None:
+        """Let the machine code of a body in another engine take the step, and copy the numbers of the body."""
+        x, acting, push = self.templates, self.traced.body.acting, self.traced.body.push
+        f.update("%work", self.acting, acting)
+        f.update("%work", self.push, push)
+        thrusts, loads = leaf_offset(x.acting, "thrusts").at, leaf_offset(x.acting, "wind", "loads")
+        given = [f.at("%work", at) for at in (self.acting + thrusts, self.acting + loads.at, self.push)]
+        given[1] = given[1] if loads.size else "null"
+        words = f.load("%work", self.scratch.spans["body"][0], "ptr")
+        run, numbers = f.load(words, 0, "ptr"), f.load(words, 1, "ptr")
+        f.do(f"call void {run}({', '.join(f'ptr {a}' for a in (words, *given))})")
+        readings, touches = leaf_offset(x.moved, "readings"), leaf_offset(x.moved, "touches")
+        first = readings.at + readings.size
+        for at, size, source in ((0, first, 0), (touches.at, touches.size, first)):
+            with f.repeat(size) as i:
+                value = f.load(numbers, f.integer("add", i, source))
+                f.store(value, "%work", f.integer("add", i, self.moved + at))
+
+    def _step_chosen_body(self, f: Function) -> None:
+        """Move the body with as much contact as may be."""
         x, near, feet, clear, done = self.traced, *[f.fresh(name) for name in ("near", "feet", "clear", "done")]
         self._choose_body(f, near, feet, clear)
         bodies = {near: x.body_in_contact, feet: x.body_on_feet, clear: x.body_in_free_air}
@@ -127,8 +152,10 @@ class LoopWriter(StepWriter):
         if self.traced.limits:
             write_solver(self.module, self.traced.limits.solver, self.lanes)
 
-    def write_loop(self) -> str:
+    def write_loop(self, *, leaves_body: bool = False) -> str:
         """`fly`: steps k to stop − 1, fewer if a flight alone ends before; it returns the step reached."""
+        self.moves_body = not leaves_body
+        self.scratch.take("body", int(leaves_body))
         self.hold_parts()
         self.write_outside()
         f = self.function("fly_", result="i64")
@@ -230,8 +257,7 @@ class LoopWriter(StepWriter):
         self.write_outside()
         x = self.traced
         parts = ["ask"] * self.templates.calls_python + ["decide"] * leaves_body + ["complete"]
-        ends = [*x.next_state, *x.sample, *([] if leaves_body else self.body_roots())]
-        acts = [*self.limit_roots(), *([*x.body.acting, *x.body.push] if leaves_body else [])]
+        ends, acts = [*x.next_state, *x.sample], [*self.body_roots(), *self.limit_roots()]
         if not leaves_body:
             ends, acts = [*ends, *acts], []
         later = {"ask": [*acts, *ends], "decide": ends, "complete": []}

@@ -167,6 +167,10 @@ class FlightMemory:
         """Set a word of the context."""
         self._context[AT[word]] = value
 
+    def leave_body(self, words: int) -> None:
+        """Leave the body to another engine; `words`: `machine_words` of an `engines.registry.MachineBody`."""
+        self.work[self.span("body")].view(np.int64)[0] = words
+
     def fly(self, stop: int) -> int:
         """Fly on to step `stop`; a flight alone stops where it crashes or diverges. The step reached."""
         self.put("k", self.k)

@@ -177,8 +177,13 @@ class StepWriter:
         return bool(self.moves_body and self.touches.size and self.traced.body_in_free_air)
 
     def body_roots(self) -> Symbols:
-        """The values of the body after the step in all its forms, and the conditions that select among them."""
+        """The values of the body after the step in all its forms, and the conditions that select among them.
+
+        Of a body in another engine, its inputs.
+        """
         x = self.traced
+        if not self.moves_body:
+            return [*x.body.acting, *x.body.push]
         bodies = [*x.body_in_contact, *x.body_on_feet, *x.body_in_free_air]
         return [*bodies, *x.may_touch_walls, *x.may_touch_hull]
 
