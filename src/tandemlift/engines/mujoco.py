@@ -6,27 +6,35 @@ on the parts are held: forces in world axes, moments in body axes (the quadrotor
 
 from __future__ import annotations
 
-from contextlib import suppress
+import ctypes
+from copy import copy
 from typing import Any
 
 import numpy as np
 
-from tandemlift.core.types import Array
+from tandemlift.core.types import Array, flat
 from tandemlift.core.vector import Absent, vec3
 from tandemlift.engines.models.mujoco_bodies import model_of
 from tandemlift.engines.models.mujoco_contact import touching_parts
 from tandemlift.engines.models.mujoco_import import mujoco
 from tandemlift.engines.models.scene import Scene
-from tandemlift.engines.mujoco_machine import UNSOUND, MachineStep, python_is_needed
-from tandemlift.engines.touches import ContactLog
+from tandemlift.engines.mujoco_step import FUNCTIONS, SLACK, code_of, rows_of
+from tandemlift.parts.contact.touches import start_touches
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 NONE = Absent()
+CONTACT = np.dtype([("geom", np.int32, 2), ("pos", float, 3)])
+MOST_CONTACTS = 4096
+STEP = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 2)
+FORCE = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 2, ctypes.c_int, ctypes.POINTER(ctypes.c_double))
 
 
 class MuJoCoBody:
-    """A mission's vehicle in MuJoCo; see `registry.EngineBody`.
+    """A mission's vehicle in MuJoCo; see `registry.EngineBody` and `registry.MachineBody`.
+
+    A step is machine code around MuJoCo's C functions (`mujoco_step`). Where these call functions of the user, such as
+    `mujoco.set_mjcb_control`, or the package has no addresses of its structs, it calls MuJoCo in Python instead.
 
     Args:
         mission: its step, `initial`, `plant`, `disturbance` and `walls` are the body's.
@@ -39,113 +47,117 @@ class MuJoCoBody:
         self.model = model_of(scene, vehicle, floor, walls)
         self.data = mujoco.MjData(self.model)
         N = vehicle.count
-        self._log, self._parts = ContactLog(floor, walls, N, scene.mission.step), touching_parts(self.model)
-        self.numbers = np.concatenate([np.zeros(6 * N + 19), self._log.numbers])
-        self.state, self.readings, self.touches = np.split(self.numbers, [13, 6 * N + 19])
-        self._log.numbers = self.touches
-        self._disturbing_force = np.array(scene.disturbance.force)
-        self._disturbing_moment = np.array(scene.disturbance.moment)
-        self._payload, self._R = skew(vehicle.origin), np.empty((3, 3))
-        self._turned = np.empty((3, N))
-        self._made, self._of_rotors = rotor_loads_at_joints(vehicle), np.empty(6 * N)
-        self._contact_load = np.zeros(6)
-        self._view_memory(N, touching=self.model.npair > 0)
+        self._moved = np.zeros(6 * N + 19)
+        self.state, self.readings = np.split(self._moved, [13])
+        touches = start_touches(floor, walls, 4 * N)
+        self.touches: Array = np.array(flat(touches))
+        self._code, self._errors = code_of(touches, N, self.model.ngeom, bool(self.model.npair)), list[BaseException]()
+        self._words = self._bound(scene, vehicle)
         self._set_start(scene)
-        self.machine = None if python_is_needed(self.model) else self._machine_step(scene.mission.step)
 
-    def _machine_step(self, step: float) -> MachineStep | None:
-        """The step as machine code; None without the memory or the functions that it needs."""
-        N, disturbance = len(self._thrusts) // 4, (self._disturbing_force, self._disturbing_moment)
-        moments = np.einsum("aiij->aij", self._made.reshape(2, 3, N, N, 4)[1])
-        constants = np.concatenate([*disturbance, self._payload.ravel(), moments.ravel()])
-        parts = {pair: self._log.row(*part) for pair, part in self._parts.items()}
-        with suppress(AttributeError, ValueError):
-            return MachineStep(self.model, self.data, self.numbers, self._log.touches, parts, constants, step)
-        return None
+    def _bound(self, scene: Scene, vehicle: Vehicle) -> Array:
+        """The words of `mujoco_step.WORDS`."""
+        model, data, free, N = self.model, self.data, copy(self.model), vehicle.count
+        free.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
+        self.in_python = python_is_needed(data)
+        functions, contacts = self._functions_in_python() if self.in_python else functions_in_c(data)
+        structs = [0 if self.in_python else struct._address for struct in (model, free, data)]
+        arrays = [data.qpos, data.qvel, data.ctrl, data.qfrc_applied, data.xfrc_applied[2:], data.sensordata]
+        limits, spheres = limits_above_floor(model)
+        disturbance, place = (scene.disturbance.force, scene.disturbance.moment), skew(vehicle.origin).ravel()
+        constants = np.concatenate(
+            [[scene.mission.step], limits, *disturbance, place, moments_of_rotors(vehicle).ravel()]
+        )
+        rows = np.full((model.ngeom, model.ngeom), -1)
+        for (one, other), (surface, kind, index) in touching_parts(model).items():
+            first = rows_of(N) * (surface == "wall") + {"rotor": 0, "guard": 4 * N, "beam": 5 * N}[kind]
+            rows[one, other] = rows[other, one] = first + index
+        self._kept = [*arrays, *contacts, constants, spheres, rows, np.zeros(10 * rows_of(N) + 1)]
+        self._structs, self._functions = (model, free, data), functions
+        self._advance = ctypes.cast(self._code.free["advance"], ctypes.c_void_p)
+        run = [self._advance.value, *[ctypes.cast(function, ctypes.c_void_p).value for function in functions]]
+        return np.array([*run, *structs, *[x.ctypes.data for x in self._kept], contacts[1].strides[0], 0])
+
+    def _functions_in_python(self) -> tuple[list[Any], list[Array]]:
+        """MuJoCo's functions by its package for Python; and count, shapes and places of contacts, which they write."""
+        model, data, count, found = self.model, self.data, np.zeros(1, np.int32), np.zeros(MOST_CONTACTS, CONTACT)
+
+        def step(*_: int) -> None:
+            try:
+                mujoco.mj_step(model, data)
+                count[0] = n = min(data.ncon, MOST_CONTACTS)
+                found["geom"][:n], found["pos"][:n] = data.contact.geom[:n], data.contact.pos[:n]
+            except BaseException as error:  # of a user's function
+                self._errors.append(error)
+
+        def force(_: int, __: int, contact: int, load: Any) -> None:
+            mujoco.mj_contactForce(model, data, contact, np.ctypeslib.as_array(load, (6,)))
+
+        return [STEP(step), FORCE(force)], [count, found["geom"], found["pos"]]
 
     @property
     def machine_words(self) -> int:
-        """See `registry.MachineBody`; a class with another `advance` has none."""
-        return self.machine.address if self.machine and type(self).advance is MuJoCoBody.advance else 0
-
-    def _view_memory(self, N: int, *, touching: bool) -> None:
-        """Make views of MuJoCo's memory and of ours, part by part, so that a step only copies."""
-        d, state, readings, joints = self.data, self.state, self.readings, slice(3, 6 * N + 3)
-        self._position, self._velocity, self._attitude, self._rates = np.split(state, [3, 6, 10])
-        self._true_position, self._true_attitude = d.qpos[:3], d.qpos[3:]
-        self._true_velocity, self._true_rates = d.qvel[:3], d.qvel[3:]
-        self._thrusts, self._force, self._moment = d.ctrl, d.qfrc_applied[:3], d.qfrc_applied[3:]
-        on_quadrotors = d.xfrc_applied[2 : N + 2].T
-        self._force_on_quadrotors, self._moment_on_quadrotors = on_quadrotors[:3], on_quadrotors[3:]
-        self._specific_force, self._accelerometer = readings[:3], d.sensordata[:3]
-        self._at_joints, self._rotor_loads_at_joints = (x.reshape(2, 3, N) for x in (readings[joints], self._of_rotors))
-        self._joint_sensors = d.sensordata[joints].reshape(2, N, 3).transpose(0, 2, 1)
-        self._contact_force, self._contact_sensor = readings[6 * N + 3 :], d.sensordata[6 * N + 3 :]
-        self._touching = touching
+        """See `registry.MachineBody`; a class with an `advance` of its own has none."""
+        own = type(self).advance is not MuJoCoBody.advance
+        return 0 if own or self.in_python else int(self._words.ctypes.data)
 
     def _set_start(self, scene: Scene) -> None:
         """Put the body where the mission starts."""
-        initial = scene.initial
-        self._true_position[:], self._true_velocity[:] = initial.position, initial.velocity
-        self._true_attitude[:], self._true_rates[:] = quaternion_from_euler(vec3(initial.euler)), initial.rates
-        self._read_state()
-
-    def _read_state(self) -> None:
-        self._position[:] = self._true_position
-        self._velocity[:] = self._true_velocity
-        self._attitude[:] = self._true_attitude
-        self._rates[:] = self._true_rates
-
-    def _read_sensors(self) -> None:
-        # a joint's sensor reads the load of the payload on the quadrotor, without that of the rotors
-        self._specific_force[:] = self._accelerometer
-        np.subtract(self._rotor_loads_at_joints, self._joint_sensors, out=self._at_joints)
-        if self._touching:
-            self._contact_force[:] = self._contact_sensor
-
-    def _load(self, loads: Array) -> None:
-        """Apply loads to the parts: to the payload about the system's centre of mass, to each quadrotor at its own."""
-        R = self._R
-        mujoco.mju_quat2Mat(R.ravel(), self._true_attitude)
-        force = loads[:3]
-        self._force += force
-        self._moment += loads[3:6]
-        self._moment += self._payload.dot(force.dot(R))
-        on_quadrotors = loads[6:].reshape(2, 3, -1)
-        self._force_on_quadrotors[:] = on_quadrotors[0]
-        R.dot(on_quadrotors[1], out=self._turned)
-        self._moment_on_quadrotors[:] = self._turned
+        initial, (q, v) = scene.initial, (self.data.qpos, self.data.qvel)
+        q[:3], q[3:] = initial.position, quaternion_from_euler(vec3(initial.euler))
+        v[:3], v[3:] = initial.velocity, initial.rates
+        self.state[:] = [*q[:3], *v[:3], *q[3:], *v[3:]]
 
     def advance(self, thrusts: Array, loads: Array, force: Array, moment: Array) -> None:
         """Advance by one step; see `registry.EngineBody`."""
-        if self.machine is not None:
-            self.machine.advance(thrusts, loads, np.concatenate([force, moment]))
-            return
-        if not thrusts.dot(thrusts) < UNSOUND * UNSOUND:  # also NaN, which is below nothing
-            self.state.fill(np.nan)
-            self.readings.fill(np.nan)
-            return
-        self._thrusts[:] = thrusts
-        np.add(force, self._disturbing_force, out=self._force)
-        np.add(moment, self._disturbing_moment, out=self._moment)
-        if len(loads):
-            self._load(loads)
-        self._made.dot(thrusts, out=self._of_rotors)
-        mujoco.mj_step(self.model, self.data)
-        self._read_state()
-        self._read_sensors()
-        self._log_contacts()
+        given = [np.ascontiguousarray(x) for x in (self._words, thrusts, loads, [*force, *moment])]
+        addresses = [x.ctypes.data if x.size else None for x in (*given, self._moved, self.touches)]
+        ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 6)(self._advance.value)(*addresses)
+        if self._errors:
+            raise self._errors.pop()
 
-    def _log_contacts(self) -> None:
-        """Enter the contacts at the end of the step, but those of feet, into the record."""
-        if self.data.ncon:
-            found = self.data.contact
-            for c, (one, other) in enumerate(found.geom.tolist()):
-                part = self._parts.get((min(one, other), max(one, other)))
-                if part is not None:
-                    mujoco.mj_contactForce(self.model, self.data, c, self._contact_load)
-                    self._log.add(*part, self._contact_load[0], found.pos[c])
-        self._log.end_step()
+
+def python_is_needed(data: Any) -> bool:
+    """Whether a step needs Python: MuJoCo calls functions of the user, or its package has no addresses."""
+    called = [name for name in dir(mujoco) if name.startswith(("get_mjcb_", "get_mju_user_"))]
+    return not hasattr(data, "_address") or any(getattr(mujoco, name)() is not None for name in called)
+
+
+def functions_in_c(data: Any) -> tuple[list[Any], list[Array]]:
+    """MuJoCo's functions; and the memory of count, shapes and places of contacts, of which there is none yet."""
+    library = ctypes.CDLL(mujoco._functions.__file__)
+    size = (data.energy.ctypes.data - data._address) // 4  # the energy stands behind the count
+    words = np.ctypeslib.as_array((ctypes.c_int32 * size).from_address(data._address))
+    before, data.ncon = words.copy(), 1
+    (at,) = np.flatnonzero(words != before)
+    geoms, places = data.contact.geom, data.contact.pos
+    data.ncon = 0
+    return [getattr(library, name) for name in FUNCTIONS], [words[at:], geoms, places]
+
+
+def limits_above_floor(model: Any) -> tuple[Array, Array]:
+    """What tells that no shape can reach the floor in a step, which it never does where shapes meet anything else.
+
+    Returns:
+        The highest floor [m]; the greatest distance of a shape from the centre of mass [m]; the greatest sum of squares
+        of all forces [N] and moments [N m] under which no shape moves by half of `SLACK`. And x, y, z [m, body axes]
+        and radius [m] of spheres around the shapes, two for each (2 shapes, 4).
+    """
+    if not model.npair:
+        return np.zeros(3), np.zeros((0, 4))
+    kinds, size, data = mujoco.mjtGeom, model.geom_size, mujoco.MjData(model)
+    data.qpos[:] = np.eye(7)[3]
+    mujoco.mj_kinematics(model, data)
+    planes, capsules = model.geom_type == kinds.mjGEOM_PLANE, model.geom_type == kinds.mjGEOM_CAPSULE
+    half = data.geom_xmat[:, 2::3] * np.where(capsules, size[:, 1], 0.0)[:, None]
+    radius = np.where(capsules, size[:, 0], model.geom_rbound)
+    meets_all = (planes[model.pair_geom1] | planes[model.pair_geom2]).all()
+    radius = np.where(planes, -np.inf, radius) if meets_all else np.full(model.ngeom, np.inf)
+    spheres = np.concatenate([np.c_[data.geom_xpos + end, radius] for end in (half, -half)])
+    reach = (np.linalg.norm(spheres[:, :3], axis=1) + spheres[:, 3]).max()
+    gain = model.dof_invweight0[0] + 3.0 * model.dof_invweight0[5] * reach * max(reach, 1.0)  # m/s² for 1 N
+    calm = (SLACK / (model.opt.timestep**2 * gain)) ** 2 / (12 + 10 * (model.nu // 4))
+    return np.array([model.geom_pos[planes, 2].max(initial=-np.inf), reach, calm]), spheres
 
 
 def skew(a: Array) -> Array:
@@ -153,12 +165,10 @@ def skew(a: Array) -> Array:
     return np.array([[0.0, -a[2], a[1]], [a[2], 0.0, -a[0]], [-a[1], a[0], 0.0]])
 
 
-def rotor_loads_at_joints(vehicle: Vehicle) -> Array:
-    """Matrix (6 N × 4 N) from rotor thrusts [N] to joint loads: force x, y, z [N], torque x, y, z [N·m], each of N."""
-    N = vehicle.count
-    made = np.zeros((2, 3, N, N, 4))
+def moments_of_rotors(vehicle: Vehicle) -> Array:
+    """Moments x, y, z [N·m] at the joint of each quadrotor for 1 N of each of its rotors (3, N, 4)."""
+    made = np.zeros((3, vehicle.count, 4))
     for i, q in enumerate(vehicle.quadrotors):
         arms = np.array(q.rotors) - np.subtract(q.joint_position, q.position)[:2]
-        made[0, 2, i, i] = 1.0
-        made[1, :, i, i] = arms[:, 1], -arms[:, 0], q.torque_per_thrust * np.array(q.spins)
-    return made.reshape(6 * N, 4 * N)
+        made[:, i] = arms[:, 1], -arms[:, 0], q.torque_per_thrust * np.array(q.spins)
+    return made

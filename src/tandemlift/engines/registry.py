@@ -85,10 +85,10 @@ class MachineBody(Protocol):
     """A body that machine code can advance, without Python.
 
     Attributes:
-        machine_words: address of an array of words; 0 if a step needs Python. The first is the address of a function
-            `void advance(words, thrusts, loads, push)`: arrays as of `EngineBody.advance`, the push with force and
-            moment, `loads` null without wind. The second is that of the numbers that it writes: state, readings and
-            touches.
+        machine_words: address of words, the first of which is that of a function
+            `void advance(words, thrusts, loads, push, moved, touches)`: arrays as of `EngineBody.advance`, force and
+            moment in one, `loads` null without wind; it writes the state, then the readings to `moved`, and keeps the
+            record of touches. 0 if a step needs Python.
     """
 
     machine_words: int

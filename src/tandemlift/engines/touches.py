@@ -42,22 +42,15 @@ class ContactLog:
         step: [s].
 
     Attributes:
-        touches: a `parts.contact.touches.Touches`, or `Absent` if there is nothing to touch.
-        numbers: of it.
+        numbers: of a `parts.contact.touches.Touches`; empty if there is nothing to touch.
     """
 
     def __init__(self, floor: Any, walls: Any, quadrotors: int, step: float) -> None:
-        self.touches = start_touches(floor, walls, 4 * quadrotors)
-        self.numbers: Array = np.array(flat(self.touches))
+        self._touches = start_touches(floor, walls, 4 * quadrotors)
+        self.numbers: Array = np.array(flat(self._touches))
         self._counts = {"rotor": 4 * quadrotors, "guard": quadrotors, "beam": 1}
         self._found: dict[tuple[str, str], tuple[Array, Array, Array]] = {}
         self._step, self._k = step, 0
-
-    def row(self, surface: str, kind: str, index: int) -> int:
-        """The place of a part among all parts, first those on the floor, then on walls; arguments as of `add`."""
-        counts = self._counts.values()
-        first = sum(list(counts)[: KINDS.index(kind)]) + sum(counts) * SURFACES.index(surface)
-        return first + index
 
     def add(self, surface: str, kind: str, index: int, normal: float, place: ArrayLike) -> None:
         """Note a contact at the end of this step.
@@ -81,11 +74,11 @@ class ContactLog:
     def end_step(self) -> None:
         """Enter the contacts at the end of a step into the record."""
         self._k += 1
-        if self._found and not isinstance(self.touches, Absent):
+        if self._found and not isinstance(self._touches, Absent):
             floor, walls = (self._surface(surface) for surface in SURFACES)
             t = self._k * self._step
-            self.touches = touches_after(self.touches, floor, walls, t, self._step)
-            self.numbers[:] = flat(self.touches)
+            self._touches = touches_after(self._touches, floor, walls, t, self._step)
+            self.numbers[:] = flat(self._touches)
             self._found.clear()
 
     def _surface(self, surface: str) -> Any:

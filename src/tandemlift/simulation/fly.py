@@ -65,7 +65,7 @@ def _fly_compiled(
     lanes = [*flights, *[flights[-1]] * (LANES - count)] if count > 1 else flights
     starts = [f.start() for f in lanes]
     differ = p.loop_code.parts_that_differ(starts)
-    code = p.loop_code.loop(len(lanes), going, differ=differ, leaves_body=words != 0)
+    code = p.loop_code.around_body(going) if words else p.loop_code.loop(len(lanes), going, differ=differ)
     memory = FlightMemory(code, starts, p.grid(rows, every), leaves(p.sample))
     if words:
         memory.leave_body(words)

@@ -82,13 +82,15 @@ class Stepper:
         self.p, self.interpreted = p, p.interpreted
         leaves_body, words = self.body is not None, machine_words_of(self.body)
         self.by_parts = (leaves_body and not words) or self.interpreted is not None
-        of = p.loop_code
-        self.code = of.parts(leaves_body=leaves_body) if self.by_parts else of.loop(1, leaves_body=leaves_body)
+        loop, whole = p.loop_code, not self.by_parts
+        self.code = (
+            loop.around_body() if whole and words else loop.loop(1) if whole else loop.parts(leaves_body=leaves_body)
+        )
         start = p.start()
         if before is not None:
             start = start._replace(ring=before.ring.reshape(start.ring.shape))
         self.memory = FlightMemory(self.code, [start], p.grid(1, 1), leaves(p.sample))
-        if leaves_body and not self.by_parts:
+        if words and whole:
             self.memory.leave_body(words)
         self.a, self.row = self.memory.numbers, self.memory.log[0, 0]
         self.before = self.a.copy()

@@ -43,17 +43,8 @@ class LoopCode:
         """The graph of a step."""
         return TracedStep(self.templates, fuses=self.fuses)
 
-    def loop(
-        self,
-        lanes: int,
-        going: Callable[[], bool] = always,
-        *,
-        differ: Collection[str] = (),
-        leaves_body: bool = False,
-    ) -> Code:
+    def loop(self, lanes: int, going: Callable[[], bool] = always, *, differ: Collection[str] = ()) -> Code:
         """`fly`, the loop over steps, for one flight or for a block of LANES; compiled only while `going()` is true.
-
-        The loop of one flight may leave the body to the machine code of another engine (`engines.registry.MachineBody`).
 
         The code of a block reads as scalars the parameters of parts in which its lanes do not `differ`. The first block
         decides which these are; for blocks that this does not fit, there is code without such scalars.
@@ -62,11 +53,15 @@ class LoopCode:
             Stopped: `going()` was false before the compilation began.
         """
         if lanes == 1:
-            return self._code("body" if leaves_body else "loop", lanes, ["fly"], going)
+            return self._code("loop", lanes, ["fly"], going)
         with self._lock:
             self._own = self._own or {DRAWN, *differ}
             own = self._own if self._own.issuperset(differ) else PARTS
         return self._code(" ".join(["loop", *sorted(own)]), lanes, ["fly", "fly_blocks"], going)
+
+    def around_body(self, going: Callable[[], bool] = always) -> Code:
+        """`fly`, the loop of one flight around a body in another engine, an `engines.registry.MachineBody`."""
+        return self._code("around", 1, ["fly"], going)
 
     def parts_that_differ(self, starts: Sequence[FlightStart]) -> set[str]:
         """The parts of a `FlightModel` in whose parameters flights differ by a bit; all if these have most of them."""
@@ -98,7 +93,7 @@ class LoopCode:
             (what, *own), lanes = kind.split(), 1 if kind == "parts" else number
             alike = [span for name, span in self._spans.items() if lanes > 1 and name not in own]
             step = LoopWriter(self.traced, lanes, alike=[i for at, size in alike for i in range(at, at + size)])
-            text = step.write_parts(bool(number)) if what == "parts" else step.write_loop(leaves_body=what == "body")
+            text = step.write_parts(bool(number)) if what == "parts" else step.write_loop(around=what == "around")
             if lanes > 1:
                 write_many_blocks(step)
                 text = step.module.text

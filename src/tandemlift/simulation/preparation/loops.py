@@ -74,36 +74,15 @@ class LoopWriter(StepWriter):
         """Move the body over the step."""
         if not self.moves_body:
             self._call_body(f)
-        elif not self.traced.body_in_free_air:
+            return
+        if not self.traced.body_in_free_air:
             if self.graph.rolls_from or self.largest:
                 f.update("%work", self.moved, self.traced.body_in_contact)
             elif f.orders:
                 f.same |= {self.graph.input("moved", i).node: s.node for i, s in enumerate(self.traced.body_in_contact)}
             else:
                 f.read["moved"] = lambda i: f.value(self.traced.body_in_contact[i])  # computed where it is read
-        else:
-            self._step_chosen_body(f)
-
-    def _call_body(self, f: Function) -> None:
-        """Let the machine code of a body in another engine take the step, and copy the numbers of the body."""
-        x, acting, push = self.templates, self.traced.body.acting, self.traced.body.push
-        f.update("%work", self.acting, acting)
-        f.update("%work", self.push, push)
-        thrusts, loads = leaf_offset(x.acting, "thrusts").at, leaf_offset(x.acting, "wind", "loads")
-        given = [f.at("%work", at) for at in (self.acting + thrusts, self.acting + loads.at, self.push)]
-        given[1] = given[1] if loads.size else "null"
-        words = f.load("%work", self.scratch.spans["body"][0], "ptr")
-        run, numbers = f.load(words, 0, "ptr"), f.load(words, 1, "ptr")
-        f.do(f"call void {run}({', '.join(f'ptr {a}' for a in (words, *given))})")
-        readings, touches = leaf_offset(x.moved, "readings"), leaf_offset(x.moved, "touches")
-        first = readings.at + readings.size
-        for at, size, source in ((0, first, 0), (touches.at, touches.size, first)):
-            with f.repeat(size) as i:
-                value = f.load(numbers, f.integer("add", i, source))
-                f.store(value, "%work", f.integer("add", i, self.moved + at))
-
-    def _step_chosen_body(self, f: Function) -> None:
-        """Move the body with as much contact as may be."""
+            return
         x, near, feet, clear, done = self.traced, *[f.fresh(name) for name in ("near", "feet", "clear", "done")]
         self._choose_body(f, near, feet, clear)
         bodies = {near: x.body_in_contact, feet: x.body_on_feet, clear: x.body_in_free_air}
@@ -116,6 +95,23 @@ class LoopWriter(StepWriter):
             f.do(f"br label %{done}")
         f.seldom = False
         f.lines.append(f"{done}:")
+
+    def _call_body(self, f: Function) -> None:
+        """Let the machine code of a body in another engine take the step: see `engines.registry.MachineBody`."""
+        f.update("%work", self.acting, self.traced.body.acting)
+        f.update("%work", self.push, self.traced.body.push)
+        thrusts, loads = (leaf_offset(self.templates.acting, *name) for name in (("thrusts",), ("wind", "loads")))
+        places = (
+            self.acting + thrusts.at,
+            self.acting + loads.at,
+            self.push,
+            self.moved,
+            self.moved + self.moved_touches,
+        )
+        given = [f.at("%work", at) for at in places]
+        given[1] = given[1] if loads.size else "null"
+        words = f.load("%work", self.words, "ptr")
+        f.do(f"call void {f.load(words, 0, 'ptr')}({', '.join(f'ptr {address}' for address in (words, *given))})")
 
     def _choose_body(self, f: Function, near: str, feet: str, clear: str) -> None:
         """Branch to the body near walls or with all its parts near the floor, on its feet, or in free air."""
@@ -152,10 +148,12 @@ class LoopWriter(StepWriter):
         if self.traced.limits:
             write_solver(self.module, self.traced.limits.solver, self.lanes)
 
-    def write_loop(self, *, leaves_body: bool = False) -> str:
-        """`fly`: steps k to stop − 1, fewer if a flight alone ends before; it returns the step reached."""
-        self.moves_body = not leaves_body
-        self.scratch.take("body", int(leaves_body))
+    def write_loop(self, *, around: bool = False) -> str:
+        """`fly`: steps k to stop − 1, fewer if a flight alone ends before; it returns the step reached.
+
+        `around` a body in another engine, whose `machine_words` stand in scratch memory.
+        """
+        self.moves_body, self.words = not around, self.scratch.take("body", int(around))
         self.hold_parts()
         self.write_outside()
         f = self.function("fly_", result="i64")

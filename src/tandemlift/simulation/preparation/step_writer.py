@@ -30,7 +30,7 @@ class StepWriter:
     ) -> None:
         self.traced, self.templates, self.graph, self.lanes = traced, traced.templates, traced.graph, lanes
         self.module, self.scratch, self.draw_lanes, self.largest = Module(), ScratchLayout(), draw_lanes, largest
-        self.moves_body, self.uniform = True, ("dt", *[("fly", i) for i in alike])
+        self.moves_body, self.words, self.uniform = True, 0, ("dt", *[("fly", i) for i in alike])
         self.width, self.draws = leaves(self.templates.given.hand.start), 0
         self.held, self.drawn, self.fresh = list[HeldPart](), dict[int, int](), dict[int, str]()
         self.state_size = leaves(self.templates.model.flight_state)
