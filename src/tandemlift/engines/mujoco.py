@@ -28,13 +28,15 @@ CONTACT = np.dtype([("geom", np.int32, 2), ("pos", float, 3)])
 MOST_CONTACTS = 4096
 STEP = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 2)
 FORCE = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 2, ctypes.c_int, ctypes.POINTER(ctypes.c_double))
+ADVANCE = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 6)
+CALLED = [getattr(mujoco, name) for name in dir(mujoco) if name.startswith(("get_mjcb_", "get_mju_user_"))]
 
 
 class MuJoCoBody:
     """A mission's vehicle in MuJoCo; see `registry.EngineBody` and `registry.MachineBody`.
 
     A step is machine code around MuJoCo's C functions (`mujoco_step`). Where these call functions of the user, such as
-    `mujoco.set_mjcb_control`, or the package has no addresses of its structs, it calls MuJoCo in Python instead.
+    that of `mujoco.set_mjcb_control`, or the package has no addresses of its structs, it calls MuJoCo in Python.
 
     Args:
         mission: its step, `initial`, `plant`, `disturbance` and `walls` are the body's.
@@ -44,62 +46,75 @@ class MuJoCoBody:
     """
 
     def __init__(self, scene: Scene, vehicle: Vehicle, floor: Any = NONE, walls: Any = NONE) -> None:
-        self.model = model_of(scene, vehicle, floor, walls)
+        self.model, N = model_of(scene, vehicle, floor, walls), vehicle.count
         self.data = mujoco.MjData(self.model)
-        N = vehicle.count
-        self._moved = np.zeros(6 * N + 19)
+        self._moved, touches = np.zeros(6 * N + 19), start_touches(floor, walls, 4 * N)
         self.state, self.readings = np.split(self._moved, [13])
-        touches = start_touches(floor, walls, 4 * N)
         self.touches: Array = np.array(flat(touches))
-        self._code, self._errors = code_of(touches, N, self.model.ngeom, bool(self.model.npair)), list[BaseException]()
-        self._words = self._bound(scene, vehicle)
+        self._code = code_of(touches, N, self.model.ngeom, bool(self.model.npair))
+        self._errors = list[BaseException]()
+        self._bind(scene, vehicle)
         self._set_start(scene)
 
-    def _bound(self, scene: Scene, vehicle: Vehicle) -> Array:
-        """The words of `mujoco_step.WORDS`."""
+    def _bind(self, scene: Scene, vehicle: Vehicle) -> None:
+        """Bind the functions and the memory of `mujoco_step.WORDS`."""
         model, data, free, N = self.model, self.data, copy(self.model), vehicle.count
         free.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
-        self.in_python = python_is_needed(data)
-        functions, contacts = self._functions_in_python() if self.in_python else functions_in_c(data)
-        structs = [0 if self.in_python else struct._address for struct in (model, free, data)]
+        seen, found = hasattr(data, "_address"), np.zeros(MOST_CONTACTS, CONTACT)
+        contacts = contact_memory(data) if seen else [np.zeros(1, np.int32), found["geom"], found["pos"]]
+        structs = [struct._address if seen else 0 for struct in (model, free, data)]
+        self._in_python = self._functions_in_python([] if seen else contacts)
+        self._functions = functions_in_c() if seen else self._in_python
         arrays = [data.qpos, data.qvel, data.ctrl, data.qfrc_applied, data.xfrc_applied[2:], data.sensordata]
         limits, spheres = limits_above_floor(model)
         disturbance, place = (scene.disturbance.force, scene.disturbance.moment), skew(vehicle.origin).ravel()
-        constants = np.concatenate(
-            [[scene.mission.step], limits, *disturbance, place, moments_of_rotors(vehicle).ravel()]
-        )
+        moments = moments_of_rotors(vehicle).ravel()
+        constants = np.concatenate([[scene.mission.step], limits, *disturbance, place, moments])
         rows = np.full((model.ngeom, model.ngeom), -1)
         for (one, other), (surface, kind, index) in touching_parts(model).items():
             first = rows_of(N) * (surface == "wall") + {"rotor": 0, "guard": 4 * N, "beam": 5 * N}[kind]
             rows[one, other] = rows[other, one] = first + index
-        self._kept = [*arrays, *contacts, constants, spheres, rows, np.zeros(10 * rows_of(N) + 1)]
-        self._structs, self._functions = (model, free, data), functions
-        self._advance = ctypes.cast(self._code.free["advance"], ctypes.c_void_p)
-        run = [self._advance.value, *[ctypes.cast(function, ctypes.c_void_p).value for function in functions]]
-        return np.array([*run, *structs, *[x.ctypes.data for x in self._kept], contacts[1].strides[0], 0])
+        memory = *arrays, *contacts, constants, spheres, rows, np.zeros(10 * rows_of(N) + 1)
+        run, apart = address_of(self._code.free["advance"]), contacts[1].strides[0]
+        self._kept, self._advance = (free, *memory), ADVANCE(run)
+        calls = map(address_of, self._functions)
+        self._words = np.array([run, *calls, *structs, *[x.ctypes.data for x in memory], apart, 0])
 
-    def _functions_in_python(self) -> tuple[list[Any], list[Array]]:
-        """MuJoCo's functions by its package for Python; and count, shapes and places of contacts, which they write."""
-        model, data, count, found = self.model, self.data, np.zeros(1, np.int32), np.zeros(MOST_CONTACTS, CONTACT)
+    def _functions_in_python(self, contacts: list[Array]) -> list[Any]:
+        """MuJoCo's functions by its package for Python; they write count, shapes and places of contacts, if given."""
+        model, data = self.model, self.data
 
         def step(*_: int) -> None:
             try:
                 mujoco.mj_step(model, data)
-                count[0] = n = min(data.ncon, MOST_CONTACTS)
-                found["geom"][:n], found["pos"][:n] = data.contact.geom[:n], data.contact.pos[:n]
+                for to, found in zip(contacts, ([data.ncon], data.contact.geom, data.contact.pos), strict=False):
+                    to[: len(found)] = found
             except BaseException as error:  # of a user's function
                 self._errors.append(error)
+                data.qpos[:] = np.nan
 
         def force(_: int, __: int, contact: int, load: Any) -> None:
             mujoco.mj_contactForce(model, data, contact, np.ctypeslib.as_array(load, (6,)))
 
-        return [STEP(step), FORCE(force)], [count, found["geom"], found["pos"]]
+        return [STEP(step), FORCE(force)]
 
     @property
     def machine_words(self) -> int:
         """See `registry.MachineBody`; a class with an `advance` of its own has none."""
-        own = type(self).advance is not MuJoCoBody.advance
-        return 0 if own or self.in_python else int(self._words.ctypes.data)
+        if type(self).advance is not MuJoCoBody.advance:
+            return 0
+        self._choose_functions()
+        return int(self._words.ctypes.data)
+
+    def _choose_functions(self) -> None:
+        """Call MuJoCo in C, or in Python if it calls functions of the user now."""
+        functions = self._in_python if any(get() is not None for get in CALLED) else self._functions
+        self._words[1:3] = [address_of(function) for function in functions]
+
+    def raise_error(self) -> None:
+        """See `registry.MachineBody`."""
+        if self._errors:
+            raise self._errors.pop()
 
     def _set_start(self, scene: Scene) -> None:
         """Put the body where the mission starts."""
@@ -110,29 +125,32 @@ class MuJoCoBody:
 
     def advance(self, thrusts: Array, loads: Array, force: Array, moment: Array) -> None:
         """Advance by one step; see `registry.EngineBody`."""
+        self._choose_functions()
         given = [np.ascontiguousarray(x) for x in (self._words, thrusts, loads, [*force, *moment])]
-        addresses = [x.ctypes.data if x.size else None for x in (*given, self._moved, self.touches)]
-        ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 6)(self._advance.value)(*addresses)
-        if self._errors:
-            raise self._errors.pop()
+        self._advance(*[x.ctypes.data if x.size else None for x in (*given, self._moved, self.touches)])
+        self.raise_error()
 
 
-def python_is_needed(data: Any) -> bool:
-    """Whether a step needs Python: MuJoCo calls functions of the user, or its package has no addresses."""
-    called = [name for name in dir(mujoco) if name.startswith(("get_mjcb_", "get_mju_user_"))]
-    return not hasattr(data, "_address") or any(getattr(mujoco, name)() is not None for name in called)
+def address_of(function: Any) -> int | None:
+    """The address of a function of C."""
+    return ctypes.cast(function, ctypes.c_void_p).value
 
 
-def functions_in_c(data: Any) -> tuple[list[Any], list[Array]]:
-    """MuJoCo's functions; and the memory of count, shapes and places of contacts, of which there is none yet."""
+def functions_in_c() -> list[Any]:
+    """MuJoCo's own functions."""
     library = ctypes.CDLL(mujoco._functions.__file__)
+    return [getattr(library, name) for name in FUNCTIONS]
+
+
+def contact_memory(data: Any) -> list[Array]:
+    """The memory of count, shapes and places of contacts, of which there is none yet."""
     size = (data.energy.ctypes.data - data._address) // 4  # the energy stands behind the count
     words = np.ctypeslib.as_array((ctypes.c_int32 * size).from_address(data._address))
     before, data.ncon = words.copy(), 1
     (at,) = np.flatnonzero(words != before)
     geoms, places = data.contact.geom, data.contact.pos
     data.ncon = 0
-    return [getattr(library, name) for name in FUNCTIONS], [words[at:], geoms, places]
+    return [words[at:], geoms, places]
 
 
 def limits_above_floor(model: Any) -> tuple[Array, Array]:

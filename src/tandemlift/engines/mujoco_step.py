@@ -6,6 +6,7 @@ shape can reach a floor within a step, the step is of a model without contact, w
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,6 @@ from tandemlift.compiler.machine_code.store import key_of
 from tandemlift.compiler.tracer import Function, Graph, Module, Place, double, symbols
 from tandemlift.compiler.tracer.fused import once_rounded, rounded_twice
 from tandemlift.core.algebra import sqrt
-from tandemlift.core.caching import cached
 from tandemlift.core.vector import Absent, Vec3, set_of
 from tandemlift.parts.contact.touches import PartContacts, SurfaceContacts, touches_after
 
@@ -30,7 +30,7 @@ SLACK = 0.02  # m, that a shape moves in a step at most, beside twice what it mo
 ROLLS = 5  # quadrotors from which on sets are loops
 
 
-@cached
+@lru_cache(maxsize=32)
 def code_of(touches: Any, quadrotors: int, geoms: int, touching: bool) -> Code:
     """The code of `advance(words, thrusts, loads, push, moved, touches)`; see `registry.MachineBody`.
 

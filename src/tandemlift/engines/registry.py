@@ -88,10 +88,13 @@ class MachineBody(Protocol):
         machine_words: address of words, the first of which is that of a function
             `void advance(words, thrusts, loads, push, moved, touches)`: arrays as of `EngineBody.advance`, force and
             moment in one, `loads` null without wind; it writes the state, then the readings to `moved`, and keeps the
-            record of touches. 0 if a step needs Python.
+            record of touches. 0 if only Python can advance it. Asked before each call of machine code.
     """
 
     machine_words: int
+
+    def raise_error(self) -> None:
+        """Raise what went wrong in the last steps, if anything did; called after each call of machine code."""
 
 
 Make = Callable[[Scene, Vehicle, Any, Any], EngineBody]

@@ -13,6 +13,7 @@ from typing import Any, Literal, NamedTuple
 from tandemlift.core.errors import InputError
 from tandemlift.core.progress import Stopped, always, progress_or_own
 from tandemlift.core.types import Progress, leaves, unflat
+from tandemlift.engines.registry import MachineBody
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, MissionLike, mission_of
 from tandemlift.missions.recording import engine_of
@@ -22,7 +23,7 @@ from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import LANES, FlightMemory
 from tandemlift.simulation.results import RawResult, flight_of, metrics_of, take_metrics
-from tandemlift.simulation.stepping import body_of, fly_stepwise, machine_words_of
+from tandemlift.simulation.stepping import body_of, fly_stepwise, machine_of
 
 STRETCH = 0.1  # s of flight code between updates of the progress bar and checks for Ctrl-C
 FIRST_STRETCH = 5_000  # steps of the first stretch of code
@@ -30,7 +31,9 @@ SORTED = 8 * LANES  # flights of one variant that are sorted before they are cut
 WAITING = 64 * LANES  # flights, at most, that wait for others of their variant
 
 
-def _stretches(p: FlightPlan, memory: FlightMemory, going: Callable[[], bool]) -> Iterator[int]:
+def _stretches(
+    p: FlightPlan, memory: FlightMemory, going: Callable[[], bool], machine: MachineBody | None = None
+) -> Iterator[int]:
     """Fly to the end in stretches of some tenth of a second; yields the step reached after each."""
     pace = memory.code.pace or FIRST_STRETCH  # few stretches seldom wait for Python's lock
     for end in [p.late_step, p.steps + 1] if p.late_step < p.steps else [p.steps + 1]:
@@ -39,7 +42,7 @@ def _stretches(p: FlightPlan, memory: FlightMemory, going: Callable[[], bool]) -
                 raise Stopped
             stop = end if memory.k + pace >= end - 1 else memory.k + pace  # never the last sample alone
             began = time.perf_counter()
-            before, after = memory.k, memory.fly(stop)
+            before, after = memory.k, memory.fly(stop, machine)
             spent = time.perf_counter() - began
             memory.code.add_time(spent)
             yield after
@@ -55,22 +58,20 @@ def _fly_compiled(
     every: int,
     progress: Progress | None = None,
     going: Callable[[], bool] = always,
-    words: int = 0,
+    machine: MachineBody | None = None,
 ) -> list[RawResult]:
     """Fly one flight, or up to LANES of one variant and grid; diverged ones are flown again alone, to stop in time.
 
-    `words`: `machine_words` of the body of one flight, if it is in another engine.
+    `machine`: the body of one flight, if it is in another engine.
     """
     p, count = flights[0], len(flights)
     lanes = [*flights, *[flights[-1]] * (LANES - count)] if count > 1 else flights
     starts = [f.start() for f in lanes]
     differ = p.loop_code.parts_that_differ(starts)
-    code = p.loop_code.around_body(going) if words else p.loop_code.loop(len(lanes), going, differ=differ)
+    code = p.loop_code.around_body(going) if machine else p.loop_code.loop(len(lanes), going, differ=differ)
     memory = FlightMemory(code, starts, p.grid(rows, every), leaves(p.sample))
-    if words:
-        memory.leave_body(words)
     began, early = time.perf_counter(), [EMPTY] * len(lanes)
-    for k in _stretches(p, memory, going):
+    for k in _stretches(p, memory, going, machine):
         if k == p.late_step < p.steps:
             early = take_metrics(memory.numbers, p.model, len(lanes))
         if progress:
@@ -111,11 +112,11 @@ def fly(mission: MissionLike, engine: str | None = None, *, progress: Progress |
     engine = engine_of(mission.person.recording) if engine is None else engine
     p = FlightPlan(mission, engine)
     rows, body = p.steps // p.every + 1, body_of(p)
-    words = machine_words_of(body)
+    machine = machine_of(body)
     with progress_or_own(mission.mission.name, progress, "steps") as shown:
-        if p.stepwise or (body is not None and not words):
+        if p.stepwise or (body is not None and machine is None):
             return flight_of(p, fly_stepwise(p, rows, p.every, shown, body), engine)
-        (flown,) = _fly_compiled([p], rows, p.every, shown, words=words)
+        (flown,) = _fly_compiled([p], rows, p.every, shown, machine=machine)
     return flight_of(p, flown, engine)
 
 

@@ -5,6 +5,7 @@ The parts of a step are compiled and exchange values through the memory of the f
 
 from __future__ import annotations
 
+import functools
 import math
 import time
 from collections.abc import Callable
@@ -55,9 +56,9 @@ def body_of(p: FlightPlan) -> EngineBody | None:
     return chosen.start(p.mission, Vehicle.from_settings(p.mission.vehicle), plant.floor, plant.walls)
 
 
-def machine_words_of(body: EngineBody | None) -> int:
-    """The `machine_words` of a body that the compiled loop can advance; 0 if Python has to."""
-    return body.machine_words if isinstance(body, MachineBody) and not isinstance(body, PushedBody) else 0
+def machine_of(body: EngineBody | None) -> MachineBody | None:
+    """The body if the compiled loop can advance it; None if Python has to, or it is the compiled one."""
+    return body if isinstance(body, MachineBody) and body.machine_words and not isinstance(body, PushedBody) else None
 
 
 class Stepper:
@@ -80,18 +81,16 @@ class Stepper:
     def _lay_out(self, p: FlightPlan, before: FlightMemory | None = None) -> None:
         """Allocate the memory of a step; the content of the delay lines is kept."""
         self.p, self.interpreted = p, p.interpreted
-        leaves_body, words = self.body is not None, machine_words_of(self.body)
-        self.by_parts = (leaves_body and not words) or self.interpreted is not None
-        loop, whole = p.loop_code, not self.by_parts
-        self.code = (
-            loop.around_body() if whole and words else loop.loop(1) if whole else loop.parts(leaves_body=leaves_body)
-        )
+        leaves_body = self.body is not None
+        self.machine = machine_of(self.body) if self.interpreted is None else None
+        self.by_parts = self.interpreted is not None or (leaves_body and self.machine is None)
+        loop = p.loop_code
+        whole = loop.around_body if self.machine else functools.partial(loop.loop, 1)
+        self.code = loop.parts(leaves_body=leaves_body) if self.by_parts else whole()
         start = p.start()
         if before is not None:
             start = start._replace(ring=before.ring.reshape(start.ring.shape))
         self.memory = FlightMemory(self.code, [start], p.grid(1, 1), leaves(p.sample))
-        if words and whole:
-            self.memory.leave_body(words)
         self.a, self.row = self.memory.numbers, self.memory.log[0, 0]
         self.before = self.a.copy()
         self.at_lost, self.hand = leaf_offset(p.model, "flight_state", "ended").at, hand_place(p)
@@ -165,7 +164,8 @@ class Stepper:
         put("steps", k if final else NEVER)
         if not self.by_parts:
             put("stop", k + 1)
-            call["fly"](at)
+            with self.memory.left_to(self.machine):
+                call["fly"](at)
         else:
             if self.interpreted is not None:
                 call["ask"](at)

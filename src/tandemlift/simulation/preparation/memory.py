@@ -6,7 +6,8 @@ a step keeps for its later parts.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 
 from tandemlift.compiler.machine_code.code import Code
 from tandemlift.core.types import flat
+from tandemlift.engines.registry import MachineBody
 from tandemlift.parts.interaction.person import PathLeg
 from tandemlift.parts.mechanics.push import GaussianPush
 from tandemlift.parts.mechanics.wall_geometry import Wall
@@ -167,17 +169,26 @@ class FlightMemory:
         """Set a word of the context."""
         self._context[AT[word]] = value
 
-    def leave_body(self, words: int) -> None:
-        """Leave the body to another engine; `words`: `machine_words` of an `engines.registry.MachineBody`."""
-        self.work[self.span("body")].view(np.int64)[0] = words
+    def fly(self, stop: int, machine: MachineBody | None = None) -> int:
+        """Fly on to step `stop`; a flight alone stops where it crashes or diverges. The step reached.
 
-    def fly(self, stop: int) -> int:
-        """Fly on to step `stop`; a flight alone stops where it crashes or diverges. The step reached."""
+        `machine`: the body if it is in another engine.
+        """
         self.put("k", self.k)
         self.put("stop", stop)
-        self.k = self.code.free["fly"](self.address)
+        with self.left_to(machine):
+            self.k = self.code.free["fly"](self.address)
         self.put("fresh", 0)
         return self.k
+
+    @contextmanager
+    def left_to(self, machine: MachineBody | None) -> Iterator[None]:
+        """A context in which a body in another engine moves."""
+        if machine is not None:
+            self.work[self.span("body")].view(np.int64)[0] = machine.machine_words
+        yield
+        if machine is not None:
+            machine.raise_error()
 
     def span(self, name: str) -> slice:
         """The place of a span of the scratch memory."""
