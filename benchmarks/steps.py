@@ -1,8 +1,9 @@
 """Time of a step in every built-in mission: `python benchmarks/steps.py`.
 
-Prints Markdown: a flight alone, blocks of eight different flights on one core, and the pilot from Python; optimised
-code throughout. With `--base PATH` the same is measured in another checkout, turn by turn, and a ratio is the median
-over the pairs. How a base of Numba is set up is said in `compiling.py`.
+Prints Markdown: a flight alone, blocks of eight different flights on one core, the pilot from Python, and a whole call
+of `tl.fly` in MuJoCo, in time of the processor; optimised code throughout. With `--base PATH` the same is measured in
+another checkout, turn by turn, and a ratio is the median over the pairs. How a base of Numba is set up is said in
+`compiling.py`.
 
 A block's eight flights differ in their seed and in what the body weighs; with real rotors two of them lose one, at
 different times. Those of "seeds" differ in their seed alone: their block reads most parameters as scalars. In missions
@@ -31,7 +32,8 @@ MISSIONS = (
     *("iris, rates", "zigzag, rates"),
 )
 PILOTS = ("paper", "iris")
-KINDS = ("alone", "block", "seeds", "pilot")
+IN_MUJOCO = ("paper", "iris", "rotor-loss", "zigzag")
+KINDS = ("alone", "block", "seeds", "pilot", "mujoco")
 MEASURE = (
     f"""
 PLAN = {PLAN!r}
@@ -42,6 +44,7 @@ from statistics import median
 warnings.simplefilter("ignore")
 import numpy as np
 import tandemlift as tl
+from tandemlift.simulation.plan import FlightPlan
 traced = importlib.util.find_spec("tandemlift.compiler")
 
 def best(code):
@@ -73,6 +76,17 @@ def step(name, kind, repeats=5):
         found.append(sum(m["wall_s"] for m in flown) / flown[0]["steps"] * 1e9)
     return median(found[1:])
 
+def in_mujoco(name, repeats=3):
+    mission, found = load(name), []
+    tl.fly(mission, "mujoco")
+    for code in FlightPlan(mission, "mujoco").loop_code._codes.values():
+        best(code)
+    for _ in range(repeats):
+        began = time.process_time()
+        tl.fly(mission, "mujoco")
+        found.append((time.process_time() - began) / mission.mission.steps * 1e9)
+    return median(found)
+
 def pilot(name):
     p, x = tl.Pilot(tl.load_mission(name)), np.zeros(16)
     x[2], x[6] = 1.0, 1.0
@@ -88,7 +102,8 @@ def pilot(name):
     return median(found)
 
 name, kind = sys.argv[1:]
-print(json.dumps(pilot(name) if kind == "pilot" else step(name, kind)))
+kinds = {"pilot": pilot, "mujoco": in_mujoco}
+print(json.dumps(kinds[kind](name) if kind in kinds else step(name, kind)))
 """
 )
 
@@ -130,8 +145,8 @@ def main() -> None:
     checkouts = [Checkout.at(HERE)._replace(python=sys.executable)]
     checkouts += [Checkout.at(options.base)] if options.base else []
     about, results, rows = describe(PACKAGES), dict[str, Any](), []
-    chosen = [(name, kind) for kind in options.kinds if kind != "pilot" for name in options.missions]
-    chosen += [(name, "pilot") for name in PILOTS if "pilot" in options.kinds]
+    own = {"pilot": PILOTS, "mujoco": IN_MUJOCO}
+    chosen = [(name, k) for k in options.kinds for name in own.get(k, MISSIONS) if name in options.missions]
     with tempfile.TemporaryDirectory() as root:
         caches = [f"{root}/own", options.cache or f"{root}/base"]
         for name, kind in chosen:
@@ -141,7 +156,8 @@ def main() -> None:
             ]
             results[f"{name}, {kind}"] = turns
             many = {"block": f"`{name}`, eight at once", "seeds": f"`{name}`, eight seeds"}
-            what = {"alone": f"`{name}`", **many, "pilot": f"`Pilot.step` of `{name}`"}
+            calls = {"pilot": f"`Pilot.step` of `{name}`", "mujoco": f"`tl.fly` of `{name}` in MuJoCo"}
+            what = {"alone": f"`{name}`", **many, **calls}
             rows.append(row(what[kind], turns, 8 if kind in many else 1))
     print(heading(about), *[c.about for c in checkouts], sep="\n\n", end="\n\n")
     print(table(HEADER, rows))

@@ -25,7 +25,6 @@ apart.plot(compiled.time, 1e3 * distance)
 apart.set(xlabel="time [s]", ylabel="distance of the two [mm]")
 figure.savefig("fly_in_mujoco.png", dpi=150)
 
-steps = {
-    name: flight.metrics()["wall_s"] / flight.metrics()["steps"] for name, flight in flights.items()
-}
-assert steps["mujoco"] > 5 * steps["compiled"]
+for name, flight in flights.items():
+    metrics = flight.metrics()
+    print(f"{name}: {metrics['wall_s'] / metrics['steps'] * 1e6:.1f} µs a step")

@@ -131,9 +131,9 @@ class MuJoCoBody:
         self.raise_error()
 
 
-def address_of(function: Any) -> int | None:
+def address_of(function: Any) -> int:
     """The address of a function of C."""
-    return ctypes.cast(function, ctypes.c_void_p).value
+    return ctypes.cast(function, ctypes.c_void_p).value or 0
 
 
 def functions_in_c() -> list[Any]:

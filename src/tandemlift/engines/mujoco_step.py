@@ -6,7 +6,7 @@ shape can reach a floor within a step, the step is of a model without contact, w
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -60,7 +60,7 @@ class _StepWriter:
         self.word = {n: f.load("%words", i, "ptr" if n in POINTERS else "i64") for i, n in enumerate(WORDS)}
         places = {**self.word, "thrust": "%thrusts", "load": "%loads", "push": "%push", "touch": "%touches"}
         self.room = places["room"] = f.own_memory(6)
-        f.read = {name: (lambda i, base=base: Place(base, i)) for name, base in places.items()}
+        f.read = {name: partial(Place, base) for name, base in places.items()}
         f.read["t"] = lambda _: self.t
         self.numbers = self._inputs("constants", 4), self._inputs("constants", 6, 4), self._inputs("constants", 9, 10)
         self.thrusts = [self._inputs("thrust", 4, 4 * i) for i in range(quadrotors)]
