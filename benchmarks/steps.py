@@ -44,7 +44,6 @@ from statistics import median
 warnings.simplefilter("ignore")
 import numpy as np
 import tandemlift as tl
-from tandemlift.simulation.plan import FlightPlan
 traced = importlib.util.find_spec("tandemlift.compiler")
 
 def best(code):
@@ -77,6 +76,8 @@ def step(name, kind, repeats=5):
     return median(found[1:])
 
 def in_mujoco(name, repeats=3):
+    from tandemlift.simulation.plan import FlightPlan
+
     mission, found = load(name), []
     tl.fly(mission, "mujoco")
     for code in FlightPlan(mission, "mujoco").loop_code._codes.values():

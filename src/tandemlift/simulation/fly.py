@@ -68,7 +68,7 @@ def _fly_compiled(
     lanes = [*flights, *[flights[-1]] * (LANES - count)] if count > 1 else flights
     starts = [f.start() for f in lanes]
     differ = p.loop_code.parts_that_differ(starts)
-    code = p.loop_code.around_body(going) if machine else p.loop_code.loop(len(lanes), going, differ=differ)
+    code = p.loop_code.alone(machine, going) if machine else p.loop_code.loop(len(lanes), going, differ=differ)
     memory = FlightMemory(code, starts, p.grid(rows, every), leaves(p.sample))
     began, early = time.perf_counter(), [EMPTY] * len(lanes)
     for k in _stretches(p, memory, going, machine):

@@ -5,7 +5,6 @@ The parts of a step are compiled and exchange values through the memory of the f
 
 from __future__ import annotations
 
-import functools
 import math
 import time
 from collections.abc import Callable
@@ -85,8 +84,7 @@ class Stepper:
         self.machine = machine_of(self.body) if self.interpreted is None else None
         self.by_parts = self.interpreted is not None or (leaves_body and self.machine is None)
         loop = p.loop_code
-        whole = loop.around_body if self.machine else functools.partial(loop.loop, 1)
-        self.code = loop.parts(leaves_body=leaves_body) if self.by_parts else whole()
+        self.code = loop.parts(leaves_body=leaves_body) if self.by_parts else loop.alone(self.machine)
         start = p.start()
         if before is not None:
             start = start._replace(ring=before.ring.reshape(start.ring.shape))
@@ -164,8 +162,7 @@ class Stepper:
         put("steps", k if final else NEVER)
         if not self.by_parts:
             put("stop", k + 1)
-            with self.memory.left_to(self.machine):
-                call["fly"](at)
+            self.memory.call(call["fly"], self.machine)
         else:
             if self.interpreted is not None:
                 call["ask"](at)

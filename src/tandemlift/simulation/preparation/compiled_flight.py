@@ -13,6 +13,7 @@ from tandemlift.compiler.machine_code.code import Code, Written
 from tandemlift.compiler.machine_code.store import key_of
 from tandemlift.compiler.tracer import Function
 from tandemlift.core.progress import always
+from tandemlift.engines.registry import MachineBody
 from tandemlift.simulation.loop.sources import LeafSpan, delayed_spans, leaf_offset
 from tandemlift.simulation.loop.step import FlightModel, StepInputs
 from tandemlift.simulation.preparation.loops import LoopWriter
@@ -59,9 +60,9 @@ class LoopCode:
             own = self._own if self._own.issuperset(differ) else PARTS
         return self._code(" ".join(["loop", *sorted(own)]), lanes, ["fly", "fly_blocks"], going)
 
-    def around_body(self, going: Callable[[], bool] = always) -> Code:
-        """`fly`, the loop of one flight around a body in another engine, an `engines.registry.MachineBody`."""
-        return self._code("around", 1, ["fly"], going)
+    def alone(self, machine: MachineBody | None, going: Callable[[], bool] = always) -> Code:
+        """`fly` of one flight, around the body if that is in another engine."""
+        return self._code("around", 1, ["fly"], going) if machine else self.loop(1, going)
 
     def parts_that_differ(self, starts: Sequence[FlightStart]) -> set[str]:
         """The parts of a `FlightModel` in whose parameters flights differ by a bit; all if these have most of them."""

@@ -100,14 +100,9 @@ class LoopWriter(StepWriter):
         """Let the machine code of a body in another engine take the step: see `engines.registry.MachineBody`."""
         f.update("%work", self.acting, self.traced.body.acting)
         f.update("%work", self.push, self.traced.body.push)
-        thrusts, loads = (leaf_offset(self.templates.acting, *name) for name in (("thrusts",), ("wind", "loads")))
-        places = (
-            self.acting + thrusts.at,
-            self.acting + loads.at,
-            self.push,
-            self.moved,
-            self.moved + self.moved_touches,
-        )
+        acting, moved = self.templates.acting, self.moved
+        thrusts, loads = leaf_offset(acting, "thrusts").at, leaf_offset(acting, "wind", "loads")
+        places = self.acting + thrusts, self.acting + loads.at, self.push, moved, moved + self.moved_touches
         given = [f.at("%work", at) for at in places]
         given[1] = given[1] if loads.size else "null"
         words = f.load("%work", self.words, "ptr")
@@ -153,7 +148,7 @@ class LoopWriter(StepWriter):
 
         `around` a body in another engine, whose `machine_words` stand in scratch memory.
         """
-        self.moves_body, self.words = not around, self.scratch.take("body", int(around))
+        self.moves_body, self.words = not around, self.scratch.take("body", 1) if around else 0
         self.hold_parts()
         self.write_outside()
         f = self.function("fly_", result="i64")

@@ -6,8 +6,7 @@ a step keeps for its later parts.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -176,19 +175,18 @@ class FlightMemory:
         """
         self.put("k", self.k)
         self.put("stop", stop)
-        with self.left_to(machine):
-            self.k = self.code.free["fly"](self.address)
+        self.k = self.call(self.code.free["fly"], machine)
         self.put("fresh", 0)
         return self.k
 
-    @contextmanager
-    def left_to(self, machine: MachineBody | None) -> Iterator[None]:
-        """A context in which a body in another engine moves."""
-        if machine is not None:
-            self.work[self.span("body")].view(np.int64)[0] = machine.machine_words
-        yield
-        if machine is not None:
-            machine.raise_error()
+    def call(self, fly: Callable[[int], int], machine: MachineBody | None = None) -> int:
+        """Call the loop, around the body if that is in another engine."""
+        if machine is None:
+            return fly(self.address)
+        self.work[self.span("body")].view(np.int64)[0] = machine.machine_words
+        reached = fly(self.address)
+        machine.raise_error()
+        return reached
 
     def span(self, name: str) -> slice:
         """The place of a span of the scratch memory."""

@@ -62,6 +62,13 @@ def changed_layout(before: Any, after: Any, path: str = "") -> str:
     return f"{path or 'a step'} is {kinds[0]} before a step and {kinds[1]} after it: a law must keep its layout"
 
 
+def laid_out(value: Any, like: Any) -> Any:
+    """A nested value of a step in which a number stands for each of a set whose values are equal, as `like` it."""
+    if not isinstance(like, tuple) or (isinstance(value, Symbol) and value.rolled):
+        return value
+    return type(like)(*map(laid_out, value if isinstance(value, tuple) else [value] * len(like), like))
+
+
 def check_layout(gains: Any, before: Any, after: Any) -> None:
     """Refuse laws that change the layout of a flight; `gains`: of the controller.
 
@@ -114,7 +121,7 @@ class TracedStep:
             output = self._limit_thrusts(output)
         output = self.trace(step.with_caller_thrusts)(output, self.given.external)
         acting = self.trace(step.actuate)(self.model, output.decision.thrusts, self.given, self.t)
-        self.body = BodyInputs(self.numbers(acting), self._mean_push())
+        self.body = BodyInputs(self.numbers(laid_out(acting, templates.acting)), self._mean_push())
         plant = self.model.plant
         self.body_in_contact = self.numbers(self._stepped_body(plant, acting))
         self.body_on_feet, self.body_in_free_air = list[Symbol](), list[Symbol]()
