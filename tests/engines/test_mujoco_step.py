@@ -2,6 +2,7 @@
 
 import platform
 import sys
+import weakref
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from fractions import Fraction
@@ -192,6 +193,14 @@ def test_flights_in_threads_at_once_have_the_bits_of_each_alone():
         assert different(flight, tl.fly(mission, "mujoco")) == []
 
 
+def test_a_body_goes_when_nothing_holds_it():
+    mission = mission_named("paper")
+    body = body_file.MuJoCoBody(mission, tl.Vehicle.from_settings(mission.vehicle))
+    gone = weakref.ref(body)
+    del body
+    assert gone() is None
+
+
 def test_steps_from_python_and_all_at_once_are_the_same():
     mission = mission_named("iris, fallen")
     sim = tl.Simulation(mission, "mujoco")
@@ -208,7 +217,7 @@ def test_steps_from_python_and_all_at_once_are_the_same():
 
 
 def without_addresses(monkeypatch):
-    monkeypatch.setattr(body_file, "hasattr", lambda thing, name: name != "_address", raising=False)
+    monkeypatch.setattr(body_file, "functions_in_c", lambda: mujoco._functions.of_an_unknown_package)
 
 
 @pytest.mark.parametrize("name", ["iris, fallen", "hover, against a wall", "four, wind"])

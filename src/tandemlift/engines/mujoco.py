@@ -60,11 +60,13 @@ class MuJoCoBody:
         """Bind the functions and the memory of `mujoco_step.WORDS`."""
         model, data, free, N = self.model, self.data, copy(self.model), vehicle.count
         free.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
-        seen, found = hasattr(data, "_address"), np.zeros(MOST_CONTACTS, CONTACT)
-        contacts = contact_memory(data) if seen else [np.zeros(1, np.int32), found["geom"], found["pos"]]
-        structs = [struct._address if seen else 0 for struct in (model, free, data)]
-        self._in_python = self._functions_in_python([] if seen else contacts)
-        self._functions = functions_in_c() if seen else self._in_python
+        try:
+            contacts, structs = contact_memory(data), [struct._address for struct in (model, free, data)]
+            self._functions = functions_in_c()
+        except (AttributeError, OSError, ValueError):  # the package hides them: by its functions for Python alone
+            found = np.zeros(MOST_CONTACTS, CONTACT)
+            contacts, structs, self._functions = [np.zeros(1, np.int32), found["geom"], found["pos"]], [0] * 3, []
+        self._in_python = functions_in_python(model, data, [] if self._functions else contacts, self._errors)
         arrays = [data.qpos, data.qvel, data.ctrl, data.qfrc_applied, data.xfrc_applied[2:], data.sensordata]
         limits, spheres = limits_above_floor(model)
         disturbance, place = (scene.disturbance.force, scene.disturbance.moment), skew(vehicle.origin).ravel()
@@ -77,26 +79,7 @@ class MuJoCoBody:
         memory = *arrays, *contacts, constants, spheres, rows, np.zeros(10 * rows_of(N) + 1)
         run, apart = address_of(self._code.free["advance"]), contacts[1].strides[0]
         self._kept, self._advance = (free, *memory), ADVANCE(run)
-        calls = map(address_of, self._functions)
-        self._words = np.array([run, *calls, *structs, *[x.ctypes.data for x in memory], apart, 0])
-
-    def _functions_in_python(self, contacts: list[Array]) -> list[Any]:
-        """MuJoCo's functions by its package for Python; they write count, shapes and places of contacts, if given."""
-        model, data = self.model, self.data
-
-        def step(*_: int) -> None:
-            try:
-                mujoco.mj_step(model, data)
-                for to, found in zip(contacts, ([data.ncon], data.contact.geom, data.contact.pos), strict=False):
-                    to[: len(found)] = found
-            except BaseException as error:  # of a user's function
-                self._errors.append(error)
-                data.qpos[:] = np.nan
-
-        def force(_: int, __: int, contact: int, load: Any) -> None:
-            mujoco.mj_contactForce(model, data, contact, np.ctypeslib.as_array(load, (6,)))
-
-        return [STEP(step), FORCE(force)]
+        self._words = np.array([run, 0, 0, *structs, *[x.ctypes.data for x in memory], apart, 0])
 
     @property
     def machine_words(self) -> int:
@@ -108,8 +91,8 @@ class MuJoCoBody:
 
     def _choose_functions(self) -> None:
         """Call MuJoCo in C, or in Python if it calls functions of the user now."""
-        functions = self._in_python if any(get() is not None for get in CALLED) else self._functions
-        self._words[1:3] = [address_of(function) for function in functions]
+        in_python = not self._functions or any(get() is not None for get in CALLED)
+        self._words[1:3] = list(map(address_of, self._in_python if in_python else self._functions))
 
     def raise_error(self) -> None:
         """See `registry.MachineBody`."""
@@ -140,6 +123,24 @@ def functions_in_c() -> list[Any]:
     """MuJoCo's own functions."""
     library = ctypes.CDLL(mujoco._functions.__file__)
     return [getattr(library, name) for name in FUNCTIONS]
+
+
+def functions_in_python(model: Any, data: Any, contacts: list[Array], errors: list[BaseException]) -> list[Any]:
+    """MuJoCo's functions by its package for Python; they write count, shapes and places of contacts, if given."""
+
+    def step(*_: int) -> None:
+        try:
+            mujoco.mj_step(model, data)
+            for to, found in zip(contacts, ([data.ncon], data.contact.geom, data.contact.pos), strict=False):
+                to[: len(found)] = found
+        except BaseException as error:  # of a user's function; the flight ends
+            errors.append(error)
+            data.qpos[:] = np.nan
+
+    def force(_: int, __: int, contact: int, load: Any) -> None:
+        mujoco.mj_contactForce(model, data, contact, np.ctypeslib.as_array(load, (6,)))
+
+    return [STEP(step), FORCE(force)]
 
 
 def contact_memory(data: Any) -> list[Array]:
