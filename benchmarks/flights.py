@@ -56,8 +56,8 @@ def in_kernel() -> Iterator[list[float]]:
     """Collects the seconds of the processor that the compiled loop takes, stretch by stretch."""
     plain, spent = FlightMemory.fly, list[float]()
 
-    def fly(memory: FlightMemory, stop: int) -> int:
-        seconds, step = timed(lambda: plain(memory, stop), time.thread_time)
+    def fly(memory: FlightMemory, *given: Any) -> int:
+        seconds, step = timed(lambda: plain(memory, *given), time.thread_time)
         spent.append(seconds)
         return step
 
