@@ -213,6 +213,33 @@ def test_steps_from_python_and_all_at_once_are_the_same():
     assert different(sim.flight(), flown) == []
 
 
+@pytest.mark.parametrize("part", ["decide", "complete"])
+def test_ctrl_c_in_a_step_of_a_body_in_python_loses_or_repeats_none(part, in_python, monkeypatch):
+    """It comes as soon as machine code returns; a step that has only begun ends the flight."""
+    mission = tl.load_mission("one-push", {"mission.duration": 0.3})
+    sim = tl.Simulation(mission, "in python")
+    sim.step(steps=100)
+    held = sim._stepper.code.held
+
+    def interrupted(address, run=held[part]):
+        run(address)
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setitem(held, part, interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            sim.step()
+    if part == "decide":
+        with pytest.raises(tl.InputError, match=r"interrupted at 0.1 s: KeyboardInterrupt; reset\(\) begins anew"):
+            sim.step()
+        sim.reset()
+    else:
+        assert sim.k == 101
+    while not sim.over:
+        sim.step()
+    assert different(sim.flight(), in_python(mission)) == []
+
+
 # MuJoCo in Python
 
 

@@ -17,11 +17,10 @@ from tandemlift.codegen.c.statements import Statements
 from tandemlift.codegen.c.text import WIDTH, FunctionHead, comment, function
 from tandemlift.codegen.c.types import leaf_paths
 from tandemlift.codegen.number_facts import key_comment
-from tandemlift.compiler.tracer import LEAVES, Function, Module, Place, Symbol, symbols
+from tandemlift.compiler.tracer import LEAVES, Function, Module, Place, ScratchLayout, Symbol, symbols
 from tandemlift.core.types import rebuilt
 from tandemlift.simulation.loop.external_inputs import ROWS
 from tandemlift.simulation.preparation.assemble import AssembledFlight
-from tandemlift.simulation.preparation.memory import ScratchLayout
 from tandemlift.simulation.preparation.precompute import ScratchValues
 from tandemlift.simulation.preparation.traced_assembly import TracedAssembly
 

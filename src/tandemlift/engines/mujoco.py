@@ -17,8 +17,8 @@ from tandemlift.core.vector import Absent, vec3
 from tandemlift.engines.models.mujoco_bodies import model_of
 from tandemlift.engines.models.mujoco_contact import touching_parts
 from tandemlift.engines.models.mujoco_import import mujoco
+from tandemlift.engines.models.mujoco_step import FUNCTIONS, SLACK, code_of, rows_of
 from tandemlift.engines.models.scene import Scene
-from tandemlift.engines.mujoco_step import FUNCTIONS, SLACK, code_of, rows_of
 from tandemlift.parts.contact.touches import start_touches
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -35,8 +35,8 @@ CALLED = [getattr(mujoco, name) for name in dir(mujoco) if name.startswith(("get
 class MuJoCoBody:
     """A mission's vehicle in MuJoCo; see `registry.EngineBody` and `registry.MachineBody`.
 
-    A step is machine code around MuJoCo's C functions (`mujoco_step`). Where these call functions of the user, such as
-    that of `mujoco.set_mjcb_control`, or the package has no addresses of its structs, it calls MuJoCo in Python.
+    A step is machine code around MuJoCo's C functions (`models.mujoco_step`). Where these call functions of the user,
+    such as that of `mujoco.set_mjcb_control`, or its package hides its structs, it calls MuJoCo in Python.
 
     Args:
         mission: its step, `initial`, `plant`, `disturbance` and `walls` are the body's.
@@ -57,7 +57,7 @@ class MuJoCoBody:
         self._set_start(scene)
 
     def _bind(self, scene: Scene, vehicle: Vehicle) -> None:
-        """Bind the functions and the memory of `mujoco_step.WORDS`."""
+        """Bind the functions and the memory of `models.mujoco_step.WORDS`."""
         model, data, free, N = self.model, self.data, copy(self.model), vehicle.count
         free.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
         try:

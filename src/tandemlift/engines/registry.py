@@ -97,6 +97,11 @@ class MachineBody(Protocol):
         """Raise what went wrong in the last steps, if anything did; called after each call of machine code."""
 
 
+def machine_of(body: EngineBody | None) -> MachineBody | None:
+    """The body if the compiled loop can advance it; None if Python has to, or it is the compiled one."""
+    return body if isinstance(body, MachineBody) and body.machine_words and not isinstance(body, PushedBody) else None
+
+
 Make = Callable[[Scene, Vehicle, Any, Any], EngineBody]
 
 

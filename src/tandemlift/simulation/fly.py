@@ -13,7 +13,6 @@ from typing import Any, Literal, NamedTuple
 from tandemlift.core.errors import InputError
 from tandemlift.core.progress import Stopped, always, progress_or_own
 from tandemlift.core.types import Progress, leaves, unflat
-from tandemlift.engines.registry import MachineBody
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, MissionLike, mission_of
 from tandemlift.missions.recording import engine_of
@@ -21,9 +20,9 @@ from tandemlift.parts.controllers.registry import explained
 from tandemlift.simulation.caller_values import count_of
 from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.preparation import LANES, FlightMemory
+from tandemlift.simulation.preparation import LANES, FlightMemory, machine_of
 from tandemlift.simulation.results import RawResult, flight_of, metrics_of, take_metrics
-from tandemlift.simulation.stepping import body_of, fly_stepwise, machine_of
+from tandemlift.simulation.stepping import body_of, fly_stepwise
 
 STRETCH = 0.1  # s of flight code between updates of the progress bar and checks for Ctrl-C
 FIRST_STRETCH = 5_000  # steps of the first stretch of code
@@ -31,9 +30,7 @@ SORTED = 8 * LANES  # flights of one variant that are sorted before they are cut
 WAITING = 64 * LANES  # flights, at most, that wait for others of their variant
 
 
-def _stretches(
-    p: FlightPlan, memory: FlightMemory, going: Callable[[], bool], machine: MachineBody | None = None
-) -> Iterator[int]:
+def _stretches(p: FlightPlan, memory: FlightMemory, going: Callable[[], bool]) -> Iterator[int]:
     """Fly to the end in stretches of some tenth of a second; yields the step reached after each."""
     pace = memory.code.pace or FIRST_STRETCH  # few stretches seldom wait for Python's lock
     for end in [p.late_step, p.steps + 1] if p.late_step < p.steps else [p.steps + 1]:
@@ -42,7 +39,7 @@ def _stretches(
                 raise Stopped
             stop = end if memory.k + pace >= end - 1 else memory.k + pace  # never the last sample alone
             began = time.perf_counter()
-            before, after = memory.k, memory.fly(stop, machine)
+            before, after = memory.k, memory.fly(stop)
             spent = time.perf_counter() - began
             memory.code.add_time(spent)
             yield after
@@ -58,20 +55,16 @@ def _fly_compiled(
     every: int,
     progress: Progress | None = None,
     going: Callable[[], bool] = always,
-    machine: MachineBody | None = None,
+    machine: Any = None,
 ) -> list[RawResult]:
-    """Fly one flight, or up to LANES of one variant and grid; diverged ones are flown again alone, to stop in time.
-
-    `machine`: the body of one flight, if it is in another engine.
-    """
+    """Fly one flight, or up to LANES of one variant and grid; diverged ones are flown again alone, to stop in time."""
     p, count = flights[0], len(flights)
     lanes = [*flights, *[flights[-1]] * (LANES - count)] if count > 1 else flights
     starts = [f.start() for f in lanes]
-    differ = p.loop_code.parts_that_differ(starts)
-    code = p.loop_code.alone(machine, going) if machine else p.loop_code.loop(len(lanes), going, differ=differ)
-    memory = FlightMemory(code, starts, p.grid(rows, every), leaves(p.sample))
+    code = p.loop_code.loop(len(lanes), going, differ=p.loop_code.parts_that_differ(starts), around=machine)
+    memory = FlightMemory(code, starts, p.grid(rows, every), leaves(p.sample), machine=machine)
     began, early = time.perf_counter(), [EMPTY] * len(lanes)
-    for k in _stretches(p, memory, going, machine):
+    for k in _stretches(p, memory, going):
         if k == p.late_step < p.steps:
             early = take_metrics(memory.numbers, p.model, len(lanes))
         if progress:

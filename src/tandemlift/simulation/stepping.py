@@ -16,15 +16,7 @@ from tandemlift.core.progress import Stopped, always
 from tandemlift.core.refusals import Refusals
 from tandemlift.core.types import Array, Progress, flat, leaves, unflat
 from tandemlift.core.vector import layout
-from tandemlift.engines.registry import (
-    EngineBody,
-    EngineLost,
-    MachineBody,
-    PushedBody,
-    TouchingBody,
-    WaitingBody,
-    engine_named,
-)
+from tandemlift.engines.registry import EngineBody, EngineLost, PushedBody, TouchingBody, WaitingBody, engine_named
 from tandemlift.flight.record import interruption
 from tandemlift.parts.controllers import control
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -33,7 +25,7 @@ from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.loop.step import FlightState
 from tandemlift.simulation.parameter_changes import ParameterChanges, ScheduledChange, hand_place
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.preparation import GIVEN, FlightMemory, leaf_offset
+from tandemlift.simulation.preparation import GIVEN, FlightMemory, leaf_offset, machine_of
 from tandemlift.simulation.results import RawResult, take_metrics
 
 PROGRESS_EVERY = 1000  # steps
@@ -53,11 +45,6 @@ def body_of(p: FlightPlan) -> EngineBody | None:
     if chosen.load is None:
         return None
     return chosen.start(p.mission, Vehicle.from_settings(p.mission.vehicle), plant.floor, plant.walls)
-
-
-def machine_of(body: EngineBody | None) -> MachineBody | None:
-    """The body if the compiled loop can advance it; None if Python has to, or it is the compiled one."""
-    return body if isinstance(body, MachineBody) and body.machine_words and not isinstance(body, PushedBody) else None
 
 
 class Stepper:
@@ -81,14 +68,14 @@ class Stepper:
         """Allocate the memory of a step; the content of the delay lines is kept."""
         self.p, self.interpreted = p, p.interpreted
         leaves_body = self.body is not None
-        self.machine = machine_of(self.body) if self.interpreted is None else None
-        self.by_parts = self.interpreted is not None or (leaves_body and self.machine is None)
+        machine = machine_of(self.body) if self.interpreted is None else None
+        self.by_parts = self.interpreted is not None or (leaves_body and machine is None)
         loop = p.loop_code
-        self.code = loop.parts(leaves_body=leaves_body) if self.by_parts else loop.alone(self.machine)
+        self.code = loop.parts(leaves_body=leaves_body) if self.by_parts else loop.loop(1, around=machine)
         start = p.start()
         if before is not None:
             start = start._replace(ring=before.ring.reshape(start.ring.shape))
-        self.memory = FlightMemory(self.code, [start], p.grid(1, 1), leaves(p.sample))
+        self.memory = FlightMemory(self.code, [start], p.grid(1, 1), leaves(p.sample), machine=machine)
         self.a, self.row = self.memory.numbers, self.memory.log[0, 0]
         self.before = self.a.copy()
         self.at_lost, self.hand = leaf_offset(p.model, "flight_state", "ended").at, hand_place(p)
@@ -162,7 +149,7 @@ class Stepper:
         put("steps", k if final else NEVER)
         if not self.by_parts:
             put("stop", k + 1)
-            self.memory.call(call["fly"], self.machine)
+            self.memory.call(call["fly"])
         else:
             if self.interpreted is not None:
                 call["ask"](at)

@@ -161,6 +161,13 @@ def written_out(value: Any) -> Any:
     return type(value)(*map(written_out, value)) if is_value(value) else value
 
 
+def laid_out(value: Any, like: Any) -> Any:
+    """A nested value of a step in which a number stands for each of a set whose values are equal, as `like` it."""
+    if not isinstance(like, tuple) or (isinstance(value, Symbol) and value.rolled):
+        return value
+    return type(like)(*map(laid_out, value if isinstance(value, tuple) else [value] * len(like), like))
+
+
 def symbols(graph: Graph, value: Any) -> list[Symbol]:
     """The numbers of a nested value, or of a tuple of such, as symbols; constants too."""
     if isinstance(value, tuple) or (isinstance(value, Symbol) and value.rolled):

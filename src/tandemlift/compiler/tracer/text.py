@@ -44,6 +44,25 @@ class Place(NamedTuple):
     stride: str | int = 1
 
 
+class ScratchLayout:
+    """Layout of the scratch memory, in numbers of one flight.
+
+    Attributes:
+        spans: first number and size of each span, by name.
+        size: of all spans together.
+    """
+
+    def __init__(self) -> None:
+        self.spans: dict[str, tuple[int, int]] = {}
+        self.size = 0
+
+    def take(self, name: str, size: int) -> int:
+        """Add a span of `size` numbers; its first number."""
+        begin, self.size = self.size, self.size + size
+        self.spans[name] = begin, size
+        return begin
+
+
 class Text(ABC):
     """The text of one function over the nodes of a graph; `llvm.Function` writes the nodes.
 

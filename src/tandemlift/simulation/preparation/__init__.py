@@ -6,6 +6,7 @@ A flight is a flat array of the numbers of a `FlightModel`; a block holds LANES 
 instruction serves all of them. The laws are the same, and so is every bit of the result.
 """
 
+from tandemlift.engines.registry import machine_of
 from tandemlift.simulation.loop.external_inputs import GAUSSIAN, GUST, LANES, SPAN, InputTables
 from tandemlift.simulation.loop.sources import LeafSpan, delayed_spans, leaf_offset
 from tandemlift.simulation.preparation.compiled_flight import LoopCode
@@ -28,4 +29,5 @@ __all__ = [
     "TimeGrid",
     "delayed_spans",
     "leaf_offset",
+    "machine_of",
 ]

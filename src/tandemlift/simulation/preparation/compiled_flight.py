@@ -13,7 +13,6 @@ from tandemlift.compiler.machine_code.code import Code, Written
 from tandemlift.compiler.machine_code.store import key_of
 from tandemlift.compiler.tracer import Function
 from tandemlift.core.progress import always
-from tandemlift.engines.registry import MachineBody
 from tandemlift.simulation.loop.sources import LeafSpan, delayed_spans, leaf_offset
 from tandemlift.simulation.loop.step import FlightModel, StepInputs
 from tandemlift.simulation.preparation.loops import LoopWriter
@@ -44,8 +43,12 @@ class LoopCode:
         """The graph of a step."""
         return TracedStep(self.templates, fuses=self.fuses)
 
-    def loop(self, lanes: int, going: Callable[[], bool] = always, *, differ: Collection[str] = ()) -> Code:
+    def loop(
+        self, lanes: int, going: Callable[[], bool] = always, *, differ: Collection[str] = (), around: object = None
+    ) -> Code:
         """`fly`, the loop over steps, for one flight or for a block of LANES; compiled only while `going()` is true.
+
+        `around`: a body in another engine, if there is one.
 
         The code of a block reads as scalars the parameters of parts in which its lanes do not `differ`. The first block
         decides which these are; for blocks that this does not fit, there is code without such scalars.
@@ -54,15 +57,11 @@ class LoopCode:
             Stopped: `going()` was false before the compilation began.
         """
         if lanes == 1:
-            return self._code("loop", lanes, ["fly"], going)
+            return self._code("around" if around else "loop", lanes, ["fly"], going)
         with self._lock:
             self._own = self._own or {DRAWN, *differ}
             own = self._own if self._own.issuperset(differ) else PARTS
         return self._code(" ".join(["loop", *sorted(own)]), lanes, ["fly", "fly_blocks"], going)
-
-    def alone(self, machine: MachineBody | None, going: Callable[[], bool] = always) -> Code:
-        """`fly` of one flight, around the body if that is in another engine."""
-        return self._code("around", 1, ["fly"], going) if machine else self.loop(1, going)
 
     def parts_that_differ(self, starts: Sequence[FlightStart]) -> set[str]:
         """The parts of a `FlightModel` in whose parameters flights differ by a bit; all if these have most of them."""

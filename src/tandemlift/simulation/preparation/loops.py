@@ -73,8 +73,7 @@ class LoopWriter(StepWriter):
     def step_body(self, f: Function) -> None:
         """Move the body over the step."""
         if not self.moves_body:
-            self._call_body(f)
-            return
+            return self._call_body(f)
         if not self.traced.body_in_free_air:
             if self.graph.rolls_from or self.largest:
                 f.update("%work", self.moved, self.traced.body_in_contact)
@@ -100,8 +99,8 @@ class LoopWriter(StepWriter):
         """Let the machine code of a body in another engine take the step: see `engines.registry.MachineBody`."""
         f.update("%work", self.acting, self.traced.body.acting)
         f.update("%work", self.push, self.traced.body.push)
-        acting, moved = self.templates.acting, self.moved
-        thrusts, loads = leaf_offset(acting, "thrusts").at, leaf_offset(acting, "wind", "loads")
+        like, moved = self.templates.acting, self.moved
+        thrusts, loads = leaf_offset(like, "thrusts").at, leaf_offset(like, "wind", "loads")
         places = self.acting + thrusts, self.acting + loads.at, self.push, moved, moved + self.moved_touches
         given = [f.at("%work", at) for at in places]
         given[1] = given[1] if loads.size else "null"
@@ -144,10 +143,7 @@ class LoopWriter(StepWriter):
             write_solver(self.module, self.traced.limits.solver, self.lanes)
 
     def write_loop(self, *, around: bool = False) -> str:
-        """`fly`: steps k to stop − 1, fewer if a flight alone ends before; it returns the step reached.
-
-        `around` a body in another engine, whose `machine_words` stand in scratch memory.
-        """
+        """`fly`: steps k to stop − 1, fewer if a flight alone ends before; `around`: a body in another engine."""
         self.moves_body, self.words = not around, self.scratch.take("body", 1) if around else 0
         self.hold_parts()
         self.write_outside()

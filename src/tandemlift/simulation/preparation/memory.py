@@ -41,25 +41,6 @@ POINTERS = WORDS[:12]
 MEMORY = "ptr noalias %c, ptr noalias %flight, ptr noalias %work"  # arguments of the internal functions
 
 
-class ScratchLayout:
-    """Layout of the scratch memory, in numbers of one flight.
-
-    Attributes:
-        spans: first number and size of each span, by name.
-        size: of all spans together.
-    """
-
-    def __init__(self) -> None:
-        self.spans: dict[str, tuple[int, int]] = {}
-        self.size = 0
-
-    def take(self, name: str, size: int) -> int:
-        """Add a span of `size` numbers; its first number."""
-        begin, self.size = self.size, self.size + size
-        self.spans[name] = begin, size
-        return begin
-
-
 def aligned(size: int) -> NDArray[np.float64]:
     """Zeros that begin at a multiple of 64 bytes: a vector of eight never crosses a line of the processor's cache."""
     padded = np.zeros(size + 8)
@@ -94,6 +75,7 @@ class FlightMemory:
         starts: a flight for each lane.
         grid: of time steps, the same for all lanes.
         columns: numbers of a sample.
+        machine: the body, if it is in another engine.
         shared: arrays in which its numbers and its context shall stand; by default, arrays of its own.
 
     Attributes:
@@ -111,8 +93,10 @@ class FlightMemory:
         grid: TimeGrid,
         columns: int,
         shared: tuple[Numbers, Words] | None = None,
+        machine: MachineBody | None = None,
     ) -> None:
         self.grid, self.k, self.starts, lanes = grid, 0, list(starts), len(starts)
+        self.machine = machine
         own = aligned(starts[0].numbers.size * lanes), np.zeros(len(WORDS), dtype=np.int64)
         self.numbers, self._context = shared or own
         self.ring, self.keys = aligned(starts[0].ring.size * lanes), aligned(starts[0].keys.size * lanes)
@@ -168,24 +152,21 @@ class FlightMemory:
         """Set a word of the context."""
         self._context[AT[word]] = value
 
-    def fly(self, stop: int, machine: MachineBody | None = None) -> int:
-        """Fly on to step `stop`; a flight alone stops where it crashes or diverges. The step reached.
-
-        `machine`: the body if it is in another engine.
-        """
+    def fly(self, stop: int) -> int:
+        """Fly on to step `stop`; a flight alone stops where it crashes or diverges. The step reached."""
         self.put("k", self.k)
         self.put("stop", stop)
-        self.k = self.call(self.code.free["fly"], machine)
+        self.k = self.call(self.code.free["fly"])
         self.put("fresh", 0)
         return self.k
 
-    def call(self, fly: Callable[[int], int], machine: MachineBody | None = None) -> int:
-        """Call the loop, around the body if that is in another engine."""
-        if machine is None:
+    def call(self, fly: Callable[[int], int]) -> int:
+        """Call the loop, around the body in another engine if there is one."""
+        if self.machine is None:
             return fly(self.address)
-        self.work[self.span("body")].view(np.int64)[0] = machine.machine_words
+        self.work[self.span("body")].view(np.int64)[0] = self.machine.machine_words
         reached = fly(self.address)
-        machine.raise_error()
+        self.machine.raise_error()
         return reached
 
     def span(self, name: str) -> slice:

@@ -8,11 +8,11 @@ from __future__ import annotations
 import functools
 from collections.abc import Sequence
 
-from tandemlift.compiler.tracer import LEAVES, Function, Graph, Place, Symbol, symbols
+from tandemlift.compiler.tracer import LEAVES, Function, Graph, Place, ScratchLayout, Symbol, symbols
 from tandemlift.core.types import leaves
 from tandemlift.simulation.loop.external_inputs import HALVES, ROWS, SPAN
 from tandemlift.simulation.loop.sources import HeldPart, leaf_offset
-from tandemlift.simulation.preparation.memory import MEMORY, ScratchLayout
+from tandemlift.simulation.preparation.memory import MEMORY
 from tandemlift.simulation.preparation.step_writer import StepWriter
 from tandemlift.simulation.preparation.traced_step import Symbols
 

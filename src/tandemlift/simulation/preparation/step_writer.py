@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from tandemlift.compiler.tracer import Function, Module, Place, double
+from tandemlift.compiler.tracer import Function, Module, Place, ScratchLayout, double
 from tandemlift.core.types import leaves
 from tandemlift.simulation.loop.external_inputs import HALVES, SPAN
 from tandemlift.simulation.loop.sources import HeldPart, delayed_spans, held_parts, leaf_offset
-from tandemlift.simulation.preparation.memory import AT, MEMORY, POINTERS, ScratchLayout
+from tandemlift.simulation.preparation.memory import AT, MEMORY, POINTERS
 from tandemlift.simulation.preparation.traced_step import Symbols, TracedStep
 
 ARGUMENTS = "ptr %c, ptr %flight, ptr %work"
@@ -177,10 +177,7 @@ class StepWriter:
         return bool(self.moves_body and self.touches.size and self.traced.body_in_free_air)
 
     def body_roots(self) -> Symbols:
-        """The values of the body after the step in all its forms, and the conditions that select among them.
-
-        Of a body in another engine, its inputs.
-        """
+        """The values of the body after the step in all forms, and what selects among them; elsewhere, its inputs."""
         x = self.traced
         if not self.moves_body:
             return [*x.body.acting, *x.body.push]

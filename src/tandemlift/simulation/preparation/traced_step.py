@@ -11,7 +11,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from tandemlift.compiler.tracer import Graph, Symbol, TraceError, refused, symbols, tracer, written_out
+from tandemlift.compiler.tracer import Graph, Symbol, TraceError, laid_out, refused, symbols, tracer, written_out
 from tandemlift.core.algebra import chosen, where
 from tandemlift.core.vector import ZERO, layout
 from tandemlift.engines.compiled import BodyStep, first_motion
@@ -60,13 +60,6 @@ def changed_layout(before: Any, after: Any, path: str = "") -> str:
                 return changed_layout(a, b, f"{path}.{name}" if path else name)
     kinds = [type(x).__name__ if hasattr(x, "_fields") else "a number" for x in (before, after)]
     return f"{path or 'a step'} is {kinds[0]} before a step and {kinds[1]} after it: a law must keep its layout"
-
-
-def laid_out(value: Any, like: Any) -> Any:
-    """A nested value of a step in which a number stands for each of a set whose values are equal, as `like` it."""
-    if not isinstance(like, tuple) or (isinstance(value, Symbol) and value.rolled):
-        return value
-    return type(like)(*map(laid_out, value if isinstance(value, tuple) else [value] * len(like), like))
 
 
 def check_layout(gains: Any, before: Any, after: Any) -> None:
