@@ -38,7 +38,8 @@ if TYPE_CHECKING:
     from tandemlift.parts.mechanics.vehicle import Vehicle
     from tandemlift.pictures.figures.registry import plot
     from tandemlift.pictures.report.study.certificate_report import certify
-    from tandemlift.simulation.fly import fly, fly_many
+    from tandemlift.simulation.fly import fly_many
+    from tandemlift.simulation.known_flights import fly
     from tandemlift.simulation.pilot_api import Pilot
     from tandemlift.simulation.simulation import Simulation
 
@@ -58,7 +59,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "compile_mission": "codegen.mission_module",
     "excite": "analysis.identification.excitation_design",
     "feel": "analysis.studies.feel",
-    "fly": "simulation.fly",
+    "fly": "simulation.known_flights",
     "fly_many": "simulation.fly",
     "grade": "apps.teaching.grading",
     "identify": "analysis.identification.identify",

@@ -5,22 +5,25 @@ The memory for reading TOML grows with the square of the number of a key's parts
 
 from __future__ import annotations
 
+import os
 import re
-import secrets
-import shutil
+import time
 import tomllib
-import zipfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import cache
-from importlib import metadata
+from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from tandemlift.core.errors import InputError
 
+if TYPE_CHECKING:
+    import zipfile
+
 __version__ = "1.0.0"
 DATA = Path(__file__).resolve().parents[1] / "data"  # missions, pages, templates: everything but Python
+LOADED = time.time_ns()  # when this process began to load the package
 FLIGHT_FILE = "flight.npz"  # in the folder of a run
 
 
@@ -28,7 +31,7 @@ FLIGHT_FILE = "flight.npz"  # in the folder of a run
 def versions(engine: str) -> Mapping[str, str]:
     """Versions of the packages that a flight in an engine uses."""
     packages = ("llvmlite", "numpy", *(["mujoco"] if engine == "mujoco" else []))
-    return {"tandemlift": __version__, **{name: metadata.version(name) for name in packages}}
+    return {"tandemlift": __version__, **{name: import_module(name).__version__ for name in packages}}
 
 
 @contextmanager
@@ -47,7 +50,7 @@ def atomic_write(path: Path) -> Iterator[Path]:
 @contextmanager
 def aside(path: Path, beside: Path) -> Iterator[Path]:
     """A temporary path that stands for another one; random, because machines that share a folder share numbers."""
-    partial = beside.with_name(f".{beside.name}.{secrets.token_hex(6)}.partial")
+    partial = beside.with_name(f".{beside.name}.{os.urandom(6).hex()}.partial")
     try:
         yield partial
     except OSError as error:  # that of a full disk has no name, others have the temporary one
@@ -56,7 +59,12 @@ def aside(path: Path, beside: Path) -> Iterator[Path]:
         name = Path(str(error.filename or path).replace(str(partial), str(path)))
         raise OSError(error.errno, error.strerror, str(name)) from error
     finally:
-        shutil.rmtree(partial) if partial.is_dir() else partial.unlink(missing_ok=True)
+        if partial.is_dir():
+            from shutil import rmtree
+
+            rmtree(partial)
+        else:
+            partial.unlink(missing_ok=True)
 
 
 def write_file(path: Path, content: str | bytes) -> None:

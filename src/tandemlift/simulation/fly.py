@@ -11,7 +11,7 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import Any, Literal, NamedTuple
 
 from tandemlift.core.errors import InputError
-from tandemlift.core.progress import Stopped, always, progress_or_own
+from tandemlift.core.progress import always, progress_or_own
 from tandemlift.core.types import Progress, leaves, unflat
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, MissionLike, mission_of
@@ -24,29 +24,8 @@ from tandemlift.simulation.preparation import LANES, FlightMemory
 from tandemlift.simulation.results import RawResult, flight_of, metrics_of, take_metrics
 from tandemlift.simulation.stepping import body_of, fly_stepwise
 
-STRETCH = 0.1  # s of flight code between updates of the progress bar and checks for Ctrl-C
-FIRST_STRETCH = 5_000  # steps of the first stretch of code
 SORTED = 8 * LANES  # flights of one variant that are sorted before they are cut into blocks
 WAITING = 64 * LANES  # flights, at most, that wait for others of their variant
-
-
-def _stretches(p: FlightPlan, memory: FlightMemory, going: Callable[[], bool]) -> Iterator[int]:
-    """Fly to the end in stretches of some tenth of a second; yields the step reached after each."""
-    pace = memory.code.pace or FIRST_STRETCH  # few stretches seldom wait for Python's lock
-    for end in [p.late_step, p.steps + 1] if p.late_step < p.steps else [p.steps + 1]:
-        while memory.k < min(end, p.steps):
-            if not going():
-                raise Stopped
-            stop = end if memory.k + pace >= end - 1 else memory.k + pace  # never the last sample alone
-            began = time.perf_counter()
-            before, after = memory.k, memory.fly(stop)
-            spent = time.perf_counter() - began
-            memory.code.add_time(spent)
-            yield after
-            if after < min(stop, p.steps):
-                return
-            pace = max(FIRST_STRETCH, int((after - before) * min(STRETCH / max(spent, 1e-9), 4.0)))
-            memory.code.pace = pace
 
 
 def _fly_compiled(
@@ -63,7 +42,7 @@ def _fly_compiled(
     code = p.loop_code.loop(len(lanes), going, differ=p.loop_code.parts_that_differ(starts))
     memory = FlightMemory(code, starts, p.grid(rows, every), leaves(p.sample))
     began, early = time.perf_counter(), [EMPTY] * len(lanes)
-    for k in _stretches(p, memory, going):
+    for k in memory.stretches(p.late_step, going):
         if k == p.late_step < p.steps:
             early = take_metrics(memory.numbers, p.model, len(lanes))
         if progress:
@@ -85,30 +64,25 @@ def _fly_compiled(
 
 
 def fly(mission: MissionLike, engine: str | None = None, *, progress: Progress | None = None) -> Flight:
-    """Fly a mission.
+    """Fly a mission that is prepared anew; otherwise as `simulation.known_flights.fly`."""
+    return fly_plan(plan_of(mission, engine), progress)[0]
 
-    Args:
-        mission: from `load_mission`, or its name or path.
-        engine: name of the engine; if None, that of the mission's recording, or "compiled".
-        progress: called from time to time with (steps flown, steps in all); by default, a notebook shows a bar.
 
-    Returns:
-        The flight. If it crashed or diverged, or its engine was lost, it holds the samples until then, and `ending`
-        has the reason.
-
-    Raises:
-        OSError: the engine in another process took no step at all.
-        InputError: the engine is unknown, or the mission cannot be loaded or built.
-    """
+def plan_of(mission: MissionLike, engine: str | None = None) -> FlightPlan:
+    """The plan of a mission in an engine; arguments as for `fly`."""
     mission = mission_of(mission)
-    engine = engine_of(mission.person.recording) if engine is None else engine
-    p = FlightPlan(mission, engine)
+    return FlightPlan(mission, engine_of(mission.person.recording) if engine is None else engine)
+
+
+def fly_plan(p: FlightPlan, progress: Progress | None = None) -> tuple[Flight, RawResult]:
+    """The flight of a plan, and what it was made from; `progress` as for `fly`."""
     rows, body = p.steps // p.every + 1, body_of(p)
-    with progress_or_own(mission.mission.name, progress, "steps") as shown:
+    with progress_or_own(p.mission.mission.name, progress, "steps") as shown:
         if body is not None or p.stepwise:
-            return flight_of(p, fly_stepwise(p, rows, p.every, shown, body), engine)
-        (flown,) = _fly_compiled([p], rows, p.every, shown)
-    return flight_of(p, flown, engine)
+            flown = fly_stepwise(p, rows, p.every, shown, body)
+        else:
+            (flown,) = _fly_compiled([p], rows, p.every, shown)
+    return flight_of(p, flown, p.engine), flown
 
 
 def fly_many(

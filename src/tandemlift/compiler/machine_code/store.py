@@ -20,7 +20,6 @@ import stat
 import sys
 import tempfile
 from collections.abc import Iterable, Mapping
-from importlib import metadata
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -171,9 +170,11 @@ def described(value: Any) -> str:
 
 def key_of_module(text: str, about: Mapping[str, Any]) -> str:
     """The key of a module as text, with the data that its callers need."""
+    import llvmlite
+
     from tandemlift.compiler.machine_code.machine import processor
 
-    facts = metadata.version("llvmlite"), processor(), json.dumps(about, sort_keys=True)
+    facts = llvmlite.__version__, processor(), json.dumps(about, sort_keys=True)
     return hashlib.sha256(f"{facts} {text}".encode()).hexdigest()[:32]
 
 
@@ -189,12 +190,14 @@ def key_of(value: Any, *more: Any, files: Iterable[Path] = ()) -> str:
         The key. It is empty if a class, or the law that is registered for it, is not of this package: a user's law may
         read numbers from any file, so only the module that is traced from it tells whether code on disk is its own.
     """
+    import llvmlite
+
     from tandemlift.compiler.machine_code.machine import processor
 
     own, others = classes(value), {kind for kind, _ in replaced()}
     if own & others or not all(c.__module__.startswith("tandemlift.") for c in own):
         return ""
-    versions = sys.version_info[:2], metadata.version("llvmlite"), processor()
+    versions = sys.version_info[:2], llvmlite.__version__, processor()
     digest = hashlib.sha256(f"{versions} {described(value)} {more}".encode())
     for path in sorted([*files, *(PACKAGE / "compiler").rglob("*.py")]) if files else sources():
         digest.update(path.name.encode() + b"\0" + content(path) + b"\0")
