@@ -103,6 +103,14 @@ def toml_tables(text: str) -> dict[str, Any]:
     return tomllib.loads(text)
 
 
+def format_toml(tables: Mapping[str, Any]) -> str:
+    """Nested tables as TOML without loss, with lists of numbers on one line."""
+    import tomli_w
+
+    text = re.sub(r"\[\n\s*([-+.\w\s,]*),\n\s*\]", lambda m: f"[{' '.join(m[1].split())}]", tomli_w.dumps(tables))
+    return re.sub(r"\[\n\s*(\[[^\[\]\n]*\]),\n\s*\]", r"[\1]", text)  # a list of one such list
+
+
 QUANTITY = r"([-+]?[0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?) ?([^\W\d_][\w /·*^-]*|[°%])"  # a number with a unit
 # a string that --set accepts without quotes; a quantity, so that it is refused with the unit of its key
 UNQUOTED = rf"\+|[A-Za-z][A-Za-z0-9_.+-]*|{QUANTITY}"

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from tandemlift.core.phases import PHASE_NUMBERS, REASON_NUMBERS
 
+
 class Channel(NamedTuple):
     """The description of a channel.
 

@@ -21,7 +21,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -107,7 +107,7 @@ class FlightFile:
             store.write(f"{self._key}-flight", entry._replace(about={**entry.about, "files": files}))
 
     def facts(self, name: str, make: Callable[[], Any]) -> Any:
-        """What `make` returns, as JSON, which depends on nothing but the known flight's mission; kept with the flight."""
+        """What `make` returns, as JSON, of nothing but the mission of the known flight; kept with the flight."""
         key = self._key and f"{self._key}-{name}"
         known = store.read(key) if key and self.known() else None
         if known:
@@ -122,8 +122,7 @@ class KnownFlight:
     """A flight that was prepared before.
 
     Attributes:
-        mission: its resolved tables.
-        steps: of the whole flight.
+        name: of the mission.
     """
 
     def __init__(self, entry: store.StoredCode, write: Callable[[], Written]) -> None:
@@ -133,34 +132,32 @@ class KnownFlight:
             size = int(np.prod(shape))
             self._arrays[name] = np.frombuffer(entry.code, np.float64, size, at).reshape(shape)
             at += 8 * size
-        self.mission: dict[str, Any] = entry.about["mission"]
-        self.steps: int = entry.about["steps"]
+        self.name: str = entry.about["mission"]["mission"]["name"]
 
     def fly(self, progress: Progress | None = None) -> Flight | None:
         """Fly it; `progress` as for `fly`. None if it ends with other numbers than before."""
-        about, numbers = self._about, self._arrays
+        about, numbers, mission = self._about, self._arrays, self._about["mission"]
+        steps, every, late, dt = (about[name] for name in ("steps", "every", "late", "dt"))
         start = FlightStart(numbers["numbers"], [numbers[t] for t in TABLES], numbers["ring"], numbers["keys"])
-        rows, every, dt = self.steps // about["every"] + 1, about["every"], about["dt"]
-        grid = TimeGrid(self.steps, every, rows, dt, numbers["delays"].astype(np.int64))
-        with progress_or_own(self.mission["mission"]["name"], progress, "steps") as shown:
+        grid = TimeGrid(steps, every, steps // every + 1, dt, numbers["delays"].astype(np.int64))
+        with progress_or_own(self.name, progress, "steps") as shown:
             code = Code(about["code"], ["fly"], self._write)
             memory = FlightMemory(code, [start], grid, about["columns"])
-            began, late, early = time.perf_counter(), about["late"], np.zeros(0)
-            metrics = memory.numbers[slice(*about["metrics"])]
+            began, early, sums = time.perf_counter(), np.zeros(0), memory.numbers[slice(*about["metrics"])]
             for k in memory.stretches(late):
-                if k == late < self.steps:
-                    early, metrics[:] = metrics.copy(), numbers["empty"]
+                if k == late < steps:
+                    early, sums[:] = sums.copy(), numbers["empty"]
                 if shown:
-                    shown(k, self.steps)
-        wall, state = time.perf_counter() - began, memory.numbers[: about["state"]]
-        if _ending(memory.k, state, early, memory.log[0][0], memory.last) != about["ending"]:
+                    shown(k, steps)
+        wall, log = time.perf_counter() - began, memory.log[0]
+        if _ending(memory.k, memory.numbers[: about["state"]], early, log[0], memory.last) != about["ending"]:
             return None
-        times = np.arange(rows, dtype=np.float64) * every * dt
-        channels = {name: memory.log[0][:, place] for name, place in _places(about["channels"])}
+        times = np.arange(grid.rows, dtype=np.float64) * every * dt
+        channels = {name: log[:, place] for name, place in _places(about["channels"])}
         return Flight(
             time=times,
-            channels=channels | reading_stamps(self.mission, times, channels),
-            mission=self.mission,
+            channels=channels | reading_stamps(mission, times, channels),
+            mission=mission,
             results={**about["results"], "wall_s": wall},
             version={**versions("compiled"), "engine": "compiled"},
             findings=tuple(map(finding_from, about["findings"])),
@@ -194,7 +191,10 @@ def _entry(p: FlightPlan, flight: Flight, flown: RawResult) -> store.StoredCode 
     from tandemlift.simulation.results import channel_columns
 
     start, grid = p.start(), p.grid(1, 1)
-    arrays = dict(zip(TABLES, start.tables, strict=True)) | {"numbers": start.numbers, "ring": start.ring}
+    arrays: dict[str, Any] = dict(zip(TABLES, start.tables, strict=True)) | {
+        "numbers": start.numbers,
+        "ring": start.ring,
+    }
     arrays |= {"keys": start.keys, "delays": grid.delays, "empty": np.array(flat(p.model.flight_state.metrics))}
     early = flat(flown.early) if p.late_step < p.steps else []
     about = {

@@ -15,11 +15,12 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from tandemlift.flight.record import Flight
+from tandemlift.parts.contact.standing import floor_height
 from tandemlift.pictures.drawing.figure import Caption, with_any_of
 from tandemlift.pictures.drawing.overlay import over_time
 from tandemlift.pictures.drawing.panels import components, fit, legend_above, line, scaling, shade, time_axis
 from tandemlift.pictures.drawing.style import BLUE, COMPONENTS, GREY, INK, PALE, journal, page_figure
-from tandemlift.pictures.drawing.surroundings import clearance, floor_height
+from tandemlift.pictures.drawing.surroundings import clearance
 from tandemlift.pictures.drawing.vehicle import true_weight
 
 CAPTION = Caption(
@@ -75,7 +76,7 @@ def draw(flight: Flight) -> Figure:
         for name, label, least in VECTORS
         if name in flight.channels
     ]
-    if (floor := floor_height(flight)) is not None:
+    if (floor := floor_height(flight.mission)) is not None:
         panels.append((HEIGHT, lambda ax: _height(ax, flight, floor)))
     figure = page_figure(AROUND + ROW * len(panels))
     axes = figure.subplots(len(panels), 1, squeeze=False)[:, 0]

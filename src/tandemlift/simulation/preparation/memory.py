@@ -161,11 +161,12 @@ class FlightMemory:
 
     def _write_tables(self) -> None:
         tables = self._tables_of_lanes
-        self._tables = [_alone(own[0]) for own in tables] if len(self.starts) == 1 else list(map(_woven, tables, idle_rows()))
+        alone = len(self.starts) == 1
+        self._tables = [_alone(own[0]) for own in tables] if alone else list(map(_woven, tables, idle_rows()))
         for word, table in zip(TABLES, self._tables, strict=True):
             self.put(word, table.ctypes.data)
-        for word, tables in zip(COUNTS, self._tables_of_lanes, strict=True):
-            self.put(word, max(map(len, tables)))
+        for word, of_lanes in zip(COUNTS, tables, strict=True):
+            self.put(word, max(map(len, of_lanes)))
 
     @property
     def _tables_of_lanes(self) -> list[tuple[Numbers, ...]]:
