@@ -16,9 +16,13 @@ from typing import Any, Literal, ParamSpec
 import matplotlib.style
 import numpy as np
 from cycler import cycler
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.backend_bases import RendererBase
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import LayoutEngine, PlaceHolderLayoutEngine
+from matplotlib.transforms import Bbox, ScaledTranslation, Transform
+from numpy.typing import NDArray
 
 from tandemlift.core.files import atomic_write
 from tandemlift.flight.record import Flight
@@ -60,6 +64,8 @@ BEHIND_TEXT: dict[str, Any] = {"facecolor": PAPER, "alpha": 0.75, "lw": 0.0, "pa
 DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)))
 COLOURS = (BLUE, VERMILLION, GREEN, INK, ORANGE, PURPLE, SKY, GREY)  # of flights in one figure
 WIDTHS = (2.0, 1.2, 0.8)  # pt: the first flights are drawn wider, so that lines that coincide are all seen
+
+SIDES = {"left": "x0", "right": "x1", "bottom": "y0", "top": "y1"}
 
 SETTINGS: dict[str, Any] = {
     "axes.linewidth": 0.6,
@@ -121,7 +127,7 @@ class StyledFigure(Figure):
     """
 
     def __init__(self, width: float, height: float, layout: Literal["constrained"] | None = "constrained") -> None:
-        self.style = current_style()
+        self.style, self._labels = current_style(), list[tuple[Axis, float, float, Transform]]()
         size = self.style.size(width, height)
         super().__init__(figsize=size, dpi=self.style.dots(size[0]), layout=layout)
 
@@ -129,6 +135,28 @@ class StyledFigure(Figure):
         """None once it is laid out: with another answer, saving would draw it once more for its layout."""
         engine = super().get_layout_engine()
         return None if isinstance(engine, PlaceHolderLayoutEngine) else engine
+
+    def lay_out(self) -> None:
+        """Lay it out, once for all: else every drawing would lay it out again.
+
+        The engine measures all axes twice, and their labels measure the ticks again each time they are drawn. But
+        neither margins nor the places of labels beside the axes depend on the size of the axes.
+        """
+        engine, free = self.get_layout_engine(), [axes for axes in self.axes if axes.get_aspect() == "auto"]
+        if engine is None:
+            return
+        for axes in free:
+            vars(axes)["get_tightbbox"] = _measured_once(axes, self._labels)
+        engine.execute(self)
+        self.set_layout_engine("none")
+        for axes in free:
+            del vars(axes)["get_tightbbox"]
+
+    def fix_labels(self) -> None:
+        """Fix the labels of axes where the layout put them."""
+        while self._labels:
+            axis, x, y, beside = self._labels.pop()
+            axis.set_label_coords(x, y, beside)
 
     def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, bytes], dict[str, dict[str, int]]]:
         """The figure in a notebook: with the dots of a file, as large as in print, without pyplot."""
@@ -167,12 +195,34 @@ def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
         # a flight that diverged may hold infinities, whose differences are no news
         with under, np.errstate(invalid="ignore", over="ignore"):
             figure = draw(*arguments, **named)
-            if layout := figure.get_layout_engine():
-                layout.execute(figure)
-                figure.set_layout_engine("none")  # else every saving would lay it out again
+            if isinstance(figure, StyledFigure):
+                figure.lay_out()
         return figure
 
     return drawn
+
+
+def _measured_once(axes: Axes, labels: list[tuple[Axis, float, float, Transform]]) -> Callable[..., Bbox | None]:
+    """The bounding box of axes, whose margins are measured once; the places of its labels join the list."""
+    margins: list[NDArray[np.float64]] = []
+
+    def measure(renderer: RendererBase, **how: Any) -> Bbox | None:
+        if not margins:
+            box = type(axes).get_tightbbox(axes, renderer, **how)
+            if box is None:
+                return None
+            margins.append(box.extents - axes.bbox.extents)
+            for axis in (axes.xaxis, axes.yaxis):
+                side, place = axis.get_label_position(), np.array(axis.label.get_position())
+                k = int(side in ("bottom", "top"))  # the coordinate in pixels; the other one is in units of the axes
+                end, offset = float(side in ("right", "top")), np.zeros(2)
+                offset[k] = (place[k] - getattr(axes.bbox, SIDES[side])) / axes.figure.dpi
+                place[k] = end
+                beside = axes.transAxes + ScaledTranslation(*offset, axes.figure.dpi_scale_trans)
+                labels.append((axis, *place, beside))
+        return Bbox.from_extents(*(axes.bbox.extents + margins[0]))
+
+    return measure
 
 
 def journal(draw: Callable[[Flight], Figure]) -> Callable[[Flight], Figure]:
@@ -198,6 +248,8 @@ def save(figure: Figure, path: Path) -> Path:
     kind = path.suffix[1:]
     style = figure.style if isinstance(figure, StyledFigure) else current_style()
     date = {"CreationDate": None} if kind == "pdf" else None
+    if isinstance(figure, StyledFigure):
+        figure.fix_labels()
     with atomic_write(path) as partial, matplotlib.style.context(["default", settings(style)]):
         figure.savefig(partial, format=kind, dpi=style.dots(figure.get_figwidth()), metadata=date)
     return path

@@ -32,7 +32,7 @@ from tandemlift.pictures.report.page import (
     split_unit,
     write_page,
 )
-from tandemlift.pictures.report.second_drawer import second_drawer
+from tandemlift.pictures.report.second_drawer import draw_by_two
 
 ARRIVED = 0.5  # m: a vehicle that ends farther from its reference has not arrived
 
@@ -171,15 +171,14 @@ def write_flight_files(
         replay: a page that plays the flight, for the report.
         facts: `mission_facts`, if they are known.
     """
-    with second_drawer(figures) as drawer:  # starts while the files are written
-        _write_data(flight, folder)
-        (folder / "report.html").unlink(missing_ok=True)
-        if any((folder / "figures").glob("*.p[nd][gf]")):
-            for name in captions():
-                for kind in ("png", "pdf"):
-                    (folder / "figures" / f"{name}.{kind}").unlink(missing_ok=True)
-        if figures:
-            drawer.save_figures(flight, folder / FLIGHT_FILE, folder / "figures", progress)
+    _write_data(flight, folder)
+    (folder / "report.html").unlink(missing_ok=True)
+    if any((folder / "figures").glob("*.p[nd][gf]")):
+        for name in captions():
+            for kind in ("png", "pdf"):
+                (folder / "figures" / f"{name}.{kind}").unlink(missing_ok=True)
+    if figures:
+        draw_by_two(flight, folder / "figures", progress)
     write_report(flight, folder / "figures", folder / "report.html", replay, facts)
 
 
