@@ -175,6 +175,7 @@ def write_results(
     A recording that the mission flies, given by its path, is among the files. `file`: in which the mission stands.
     """
     from tandemlift.flight.printed_summary import summary_lines
+
     echo(*summary_lines(flight))
     if recording is not None:  # so that the folder can be flown anywhere
         from tandemlift.missions.recording import recording_bytes
