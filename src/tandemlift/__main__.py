@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import sys
 
+YOUNG = 100_000  # objects between collections of cycles: most commands end before there are many, and leave few
+
 
 def main() -> None:
     """Run the command line; Ctrl-C ends it by one line also while it is being loaded."""
+    gc.set_threshold(YOUNG)
     try:
         from tandemlift.apps.cli.main import main as run
     except KeyboardInterrupt:
