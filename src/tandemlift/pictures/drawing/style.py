@@ -207,22 +207,20 @@ def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
 
 def _measured_once(axes: Axes, labels: list[tuple[Axis, float, float, Transform]]) -> Callable[..., Bbox | None]:
     """The bounding box of axes, whose margins are measured once; the places of its labels join the list."""
-    margins: list[NDArray[np.float64]] = []
+    margins, figure = list[NDArray[np.float64]](), axes.figure
 
     def measure(renderer: RendererBase, **how: Any) -> Bbox | None:
         if not margins:
             box = type(axes).get_tightbbox(axes, renderer, **how)
             if box is None:
                 return None
-            margins.append(box.extents - axes.bbox.extents)
+            margins.append(np.subtract(box.extents, axes.bbox.extents))
             for axis in (axes.xaxis, axes.yaxis):
-                side, place = axis.get_label_position(), np.array(axis.label.get_position())
-                k = int(side in ("bottom", "top"))  # the coordinate in pixels; the other one is in units of the axes
-                end, offset = float(side in ("right", "top")), np.zeros(2)
-                offset[k] = (place[k] - getattr(axes.bbox, SIDES[side])) / axes.figure.dpi
-                place[k] = end
-                beside = axes.transAxes + ScaledTranslation(*offset, axes.figure.dpi_scale_trans)
-                labels.append((axis, *place, beside))
+                (x, y), side = axis.label.get_position(), axis.get_label_position()
+                away = ((y if axis is axes.xaxis else x) - getattr(axes.bbox, SIDES[side])) / figure.dpi  # in
+                end = float(side in ("right", "top"))
+                x, y, dx, dy = (x, end, 0.0, away) if axis is axes.xaxis else (end, y, away, 0.0)
+                labels.append((axis, x, y, axes.transAxes + ScaledTranslation(dx, dy, figure.dpi_scale_trans)))
         return Bbox.from_extents(*(axes.bbox.extents + margins[0]))
 
     return measure
