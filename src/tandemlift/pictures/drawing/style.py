@@ -10,7 +10,9 @@ from __future__ import annotations
 import io
 import struct
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext
+from contextvars import ContextVar
 from functools import wraps
 from pathlib import Path
 from typing import Any, Literal, ParamSpec
@@ -116,6 +118,23 @@ def settings(style: FigureStyle) -> dict[str, Any]:
     }
 
 
+_UNDER: ContextVar[FigureStyle | None] = ContextVar("under", default=None)
+
+
+@contextmanager
+def under(style: FigureStyle) -> Iterator[None]:
+    """The settings of a style, whatever those of the machine are; the library checks some three hundred each time."""
+    if _UNDER.get() is style:
+        yield
+        return
+    before = _UNDER.set(style)
+    try:
+        with matplotlib.style.context(["default", settings(style)]):
+            yield
+    finally:
+        _UNDER.reset(before)
+
+
 def look(place: int, **own: Any) -> dict[str, Any]:
     """The look of the flight number `place` among several: eight colours, each with a dash, then the next dash."""
     dash, width = DASHES[(place + place // len(COLOURS)) % len(DASHES)], WIDTHS[min(place, len(WIDTHS) - 1)]
@@ -170,7 +189,7 @@ class StyledFigure(Figure):
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw it, its colours from the style's palette."""
-        with matplotlib.rc_context(settings(self.style)):
+        with nullcontext() if _UNDER.get() is self.style else matplotlib.rc_context(settings(self.style)):
             super().draw(renderer)
 
 
@@ -194,9 +213,8 @@ def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
 
     @wraps(draw)
     def drawn(*arguments: P.args, **named: P.kwargs) -> Figure:
-        under = matplotlib.style.context(["default", settings(current_style())])
         # a flight that diverged may hold infinities, whose differences are no news
-        with under, np.errstate(invalid="ignore", over="ignore"):
+        with under(current_style()), np.errstate(invalid="ignore", over="ignore"):
             figure = draw(*arguments, **named)
             if isinstance(figure, StyledFigure):
                 figure.lay_out()
@@ -249,7 +267,7 @@ def save(figure: Figure, path: Path) -> Path:
     kind = path.suffix[1:]
     style = figure.style if isinstance(figure, StyledFigure) else current_style()
     date = {"CreationDate": None} if kind == "pdf" else None
-    with atomic_write(path) as partial, matplotlib.style.context(["default", settings(style)]):
+    with atomic_write(path) as partial, under(style):
         if isinstance(figure, StyledFigure):
             figure.fix_labels()
             if kind == "png":
