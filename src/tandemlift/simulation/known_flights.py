@@ -12,6 +12,7 @@ flights that ended early; and a process whose sources may have changed since it 
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import importlib.util
 import json
@@ -49,6 +50,7 @@ WITH_LAWS = re.compile(
 MATHEMATICS = ("OPENBLAS", "OMP_", "MKL_", "BLIS_", "NPY_")  # beginnings of variables that may change its last bits
 MISSIONS = DATA / "missions"
 MARGIN = 2 * 10**7  # ns, by which the clock of files may be late
+_CODES = dict[str, Code]()  # that fly in this process
 TABLES = ("pushes", "gusts", "walls", "legs")
 
 
@@ -144,7 +146,7 @@ class KnownFlight:
         start = FlightStart(numbers["numbers"], [numbers[t] for t in TABLES], numbers["ring"], numbers["keys"])
         grid = TimeGrid(steps, every, steps // every + 1, dt, numbers["delays"].astype(np.int64))
         with progress_or_own(self.name, progress, "steps") as shown:
-            code = Code(about["code"], ["fly"], self._write)
+            code = _CODES.get(key := about["code"]) or _CODES.setdefault(key, Code(key, ["fly"], self._write))
             memory = FlightMemory(code, [start], grid, about["columns"])
             began, early, sums = time.perf_counter(), np.zeros(0), memory.numbers[slice(*about["metrics"])]
             for k in memory.stretches(late):
@@ -253,14 +255,23 @@ def _sources() -> str:
     checks = Path(pydantic.origin).with_name("version.py") if pydantic and pydantic.origin else None
     if checks is None:
         return ""
+    rooms = [entry for room in ROOMS for entry in os.walk(store.PACKAGE / room)]
+    files = [os.path.join(folder, name) for folder, _, names in rooms for name in names if name.endswith(".py")]
+    files += [str(checks), *map(str, MISSIONS.glob("*.toml"))]
+    if any(os.stat(file).st_ctime_ns > LOADED - MARGIN for file in files):
+        return ""
     arithmetic = sorted(item for item in os.environ.items() if item[0].startswith(MATHEMATICS))
     facts = sys.version, np.__version__, llvmlite.__version__, processor(), arithmetic
-    digest = hashlib.sha256(repr(facts).encode())
-    files = [*(file for room in ROOMS for file in (store.PACKAGE / room).rglob("*.py")), *MISSIONS.glob("*.toml")]
-    for path in [*sorted(files), checks]:
-        if path.stat().st_ctime_ns > LOADED - MARGIN:
-            return ""
-        digest.update(f"\0{path}\0".encode() + path.read_bytes())
+    return hashlib.sha256(f"{facts} {_hash_of_all(tuple(sorted(files)))}".encode()).hexdigest()
+
+
+@functools.cache
+def _hash_of_all(files: tuple[str, ...]) -> str:
+    """A hash of the paths and contents of files that did not change since the start, and so are read once."""
+    digest = hashlib.sha256()
+    for file in files:
+        with open(file, "rb", buffering=0) as opened:
+            digest.update(f"\0{file}\0".encode() + opened.read())
     return digest.hexdigest()
 
 
