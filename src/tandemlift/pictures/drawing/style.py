@@ -7,7 +7,6 @@ colours, so that one drawing serves all palettes.
 
 from __future__ import annotations
 
-import io
 import struct
 import zlib
 from collections.abc import Callable, Iterator
@@ -182,10 +181,10 @@ class StyledFigure(Figure):
 
     def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, bytes], dict[str, dict[str, int]]]:
         """The figure in a notebook: with the dots of a file, as large as in print, without pyplot."""
-        picture = io.BytesIO()
-        self.savefig(picture)
+        with under(self.style):
+            picture = _png(self)
         width, height = (round(CSS_DOTS * side) for side in self.get_size_inches())
-        return {"image/png": picture.getvalue()}, {"image/png": {"width": width, "height": height}}
+        return {"image/png": picture}, {"image/png": {"width": width, "height": height}}
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw it, its colours from the style's palette."""
