@@ -158,6 +158,25 @@ def test_a_known_flight_of_a_built_in_mission_has_the_record_of_a_prepared_one(n
     assert list(again.channels) == list(flight.channels)
 
 
+def test_a_flight_of_a_file_that_was_edited_meanwhile_is_not_kept(unaware, file):
+    known = FlightFile(file)
+    flight, raw = fly_plan(p := FlightPlan(tl.load_mission(file)))
+    file.write_text(file.read_text() + "# an edit\n")
+    known.remember(p, flight, raw)
+    assert FlightFile(file).known() is None
+
+
+def test_facts_of_a_file_are_made_anew_after_the_file_that_it_extends_was_edited(unaware, file):
+    made = []
+    for duration in ("0.3", "0.2", "0.3"):
+        base = file.with_name("base.toml")
+        base.write_text(re.sub("duration = .*", f"duration = {duration}", base.read_text()))
+        time.sleep(2e-9 * known_flights.MARGIN)
+        remembered(file, {})
+        made.append(FlightFile(file).facts("test", lambda seconds=duration: {"seconds": seconds}))
+    assert made == [{"seconds": "0.3"}, {"seconds": "0.2"}, {"seconds": "0.3"}]
+
+
 BLOW = {"time": 0.1, "sigma": 0.05, "force": [90.0, 90.0, 0.0]}
 
 

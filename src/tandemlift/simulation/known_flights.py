@@ -86,16 +86,19 @@ class FlightFile:
     """A mission's file with some changes, as `load_mission` takes them, and what is on disk of its flight."""
 
     def __init__(self, name: str | os.PathLike[str], changes: Mapping[str, Any] | None = None) -> None:
-        self._warnings = FlightWarning.count
-        self._name, self._changes = os.fspath(name), dict(changes or {})
-        self._key = _key(self._name, self._changes)
+        self._began, self._warnings = time.time_ns(), FlightWarning.count
+        self._name, self._changes = _named(os.fspath(name)), dict(changes or {})
+        self._key = _key(self._name, self._changes) if self._name else ""
 
     def known(self) -> KnownFlight | None:
         """Its flight as it was prepared before; None if it is not known."""
+        found = self._found()
+        return found and KnownFlight(found, lambda: _plan(self._name, self._changes).loop_code.written("loop", 1))
+
+    def _found(self) -> store.StoredCode | None:
+        """The entry of its flight, if the files that it was made from have not changed."""
         found = store.read(f"{self._key}-flight") if self._key else None
-        if found is None or any(_hash_of(path) != known for path, known in found.about["files"].items()):
-            return None
-        return KnownFlight(found, lambda: _plan(self._name, self._changes).loop_code.written("loop", 1))
+        return found if found and all(_hash_of(path) == of for path, of in found.about["files"].items()) else None
 
     def remember(self, p: FlightPlan, flight: Flight, flown: RawResult) -> None:
         """Keep what a flight of this file was prepared from, and what became of it, if these are certain."""
@@ -106,21 +109,25 @@ class FlightFile:
         alone = p.engine == "compiled" and not p.stepwise and not reads and not flown.lost
         if not self._key or not alone or FlightWarning.count != self._warnings or not _sources():
             return
+        sources = [layer.source for layer in layers_of(path_of(self._name, Path()))]
+        files = [source for source in sources if os.path.isabs(source)]  # built-in missions are in the key
+        if any(os.stat(file).st_ctime_ns > self._began - MARGIN for file in files):
+            return
         if entry := _entry(p, flight, flown):
-            read = [os.path.abspath(layer.source) for layer in layers_of(path_of(self._name, Path()))]
-            files = {path: _hash_of(path) for path in read if os.path.isfile(path)}  # built-in ones are in the key
-            store.write(f"{self._key}-flight", entry._replace(about={**entry.about, "files": files}))
+            about = {**entry.about, "files": {file: _hash_of(file) for file in files}}
+            store.write(f"{self._key}-flight", entry._replace(about=about))
 
     def facts(self, name: str, make: Callable[[], Any]) -> Any:
         """What `make` returns, as JSON, of nothing but the mission of the known flight; kept with the flight."""
-        key = self._key and f"{self._key}-{name}"
-        known = store.read(key) if key and self.known() else None
-        if known:
-            return known.about["facts"]
-        facts = make()
-        if key and self.known():
-            store.write(key, store.StoredCode({"facts": facts}, b""))
-        return facts
+        if not (found := self._found()):
+            return make()
+        of = hashlib.sha256(f"{self._key} {found.about['mission']}".encode()).hexdigest()[:32]
+        key = f"{of}-{name}"
+        known = store.read(key)
+        if known is None:
+            known = store.StoredCode({"facts": make()}, b"")
+            store.write(key, known)
+        return known.about["facts"]
 
 
 class KnownFlight:
@@ -226,14 +233,17 @@ def _entry(p: FlightPlan, flight: Flight, flown: RawResult) -> store.StoredCode 
 # ---- The key
 
 
+def _named(name: str) -> str:
+    """The name of a built-in mission, or the whole path of a mission's file; "" if it is neither by its name."""
+    if re.fullmatch(r"[\w-]+", name) and (MISSIONS / f"{name}.toml").is_file():
+        return name
+    return os.path.abspath(name) if name.endswith(".toml") else ""
+
+
 def _key(name: str, changes: dict[str, Any]) -> str:
     """The key of a mission's file with some changes; "" if its flight cannot be known."""
     if any(map(WITH_LAWS.match, sys.modules)) or not _is_plain(changes):
         return ""
-    if not (re.fullmatch(r"[\w-]+", name) and (MISSIONS / f"{name}.toml").is_file()):
-        if not name.endswith(".toml"):
-            return ""
-        name = os.path.abspath(name)
     sources = _sources()
     return sources and hashlib.sha256(f"{sources} {name!r} {changes!r}".encode()).hexdigest()[:32]
 
