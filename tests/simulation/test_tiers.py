@@ -11,7 +11,7 @@ import tandemlift as tl
 from tandemlift.compiler.machine_code import code, store
 from tandemlift.core.caching import LastUsed
 from tandemlift.core.types import leaves
-from tandemlift.simulation import plan
+from tandemlift.simulation import fly, plan
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import LANES, FlightMemory
 
@@ -83,7 +83,7 @@ def log_of(p):
 def test_a_long_flight_has_its_code_optimised_and_the_next_process_finds_it(empty, monkeypatch):
     monkeypatch.delenv("TANDEMLIFT_OPTIMISE")
     monkeypatch.setattr(code, "PAYS", 0.0)
-    monkeypatch.setattr("tandemlift.simulation.preparation.memory.FIRST_STRETCH", 100)
+    monkeypatch.setattr(fly, "FIRST_STRETCH", 100)
     mission = tl.load_mission("one-push", {"mission.duration": 1.0})
     found = FlightPlan(mission).loop_code.loop(1)
     tl.fly(mission)

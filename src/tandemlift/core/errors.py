@@ -10,7 +10,7 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from importlib.util import find_spec
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, NamedTuple
 
 
 class InputError(ValueError):
@@ -18,12 +18,9 @@ class InputError(ValueError):
 
 
 class FlightWarning(UserWarning):
-    """Warns of a mission that can be flown but is expected to fly badly, with the numbers.
+    """Warns of a mission that can be flown but is expected to fly badly, with the numbers; `count`: those so far."""
 
-    `count`: how many there were, whether they were shown or not.
-    """
-
-    count: ClassVar[int] = 0
+    count = 0
 
     def __init__(self, *said: object) -> None:
         super().__init__(*said)

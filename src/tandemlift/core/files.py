@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import time
 import tomllib
 from collections.abc import Iterator, Mapping
@@ -14,12 +15,9 @@ from contextlib import contextmanager
 from functools import cache
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from tandemlift.core.errors import InputError
-
-if TYPE_CHECKING:
-    import zipfile
 
 __version__ = "1.0.0"
 DATA = Path(__file__).resolve().parents[1] / "data"  # missions, pages, templates: everything but Python
@@ -36,11 +34,7 @@ def versions(engine: str) -> Mapping[str, str]:
 
 @contextmanager
 def atomic_write(path: Path) -> Iterator[Path]:
-    """A temporary path to write to, renamed to `path` at the end; if writing fails, `path` stays as it was.
-
-    Raises:
-        OSError: writing failed; it names `path`.
-    """
+    """A temporary path to write to, renamed to `path` at the end; if that fails, `path` stays, and OSError names it."""
     with aside(path, path) as partial:
         path.parent.mkdir(parents=True, exist_ok=True)
         yield partial
@@ -59,12 +53,7 @@ def aside(path: Path, beside: Path) -> Iterator[Path]:
         name = Path(str(error.filename or path).replace(str(partial), str(path)))
         raise OSError(error.errno, error.strerror, str(name)) from error
     finally:
-        if partial.is_dir():
-            from shutil import rmtree
-
-            rmtree(partial)
-        else:
-            partial.unlink(missing_ok=True)
+        shutil.rmtree(partial) if partial.is_dir() else partial.unlink(missing_ok=True)
 
 
 def write_file(path: Path, content: str | bytes) -> None:
@@ -79,7 +68,7 @@ def check_own(path: Path, mark: str) -> None:
         raise InputError(f"{path}: tandemlift did not write it, so it stays: give another folder, or move it")
 
 
-def unpacked_size(archive: zipfile.ZipFile) -> int:
+def unpacked_size(archive: Any) -> int:
     """Unpacked size of all files of an archive [bytes], by its directory; no more than that is ever read."""
     return sum(file.file_size for file in archive.infolist())
 
@@ -101,14 +90,6 @@ def toml_tables(text: str) -> dict[str, Any]:
     if deep := _TOO_DEEP.search(text):
         raise _too_deep(deep[0])
     return tomllib.loads(text)
-
-
-def format_toml(tables: Mapping[str, Any]) -> str:
-    """Nested tables as TOML without loss, with lists of numbers on one line."""
-    import tomli_w
-
-    text = re.sub(r"\[\n\s*([-+.\w\s,]*),\n\s*\]", lambda m: f"[{' '.join(m[1].split())}]", tomli_w.dumps(tables))
-    return re.sub(r"\[\n\s*(\[[^\[\]\n]*\]),\n\s*\]", r"[\1]", text)  # a list of one such list
 
 
 QUANTITY = r"([-+]?[0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?) ?([^\W\d_][\w /·*^-]*|[°%])"  # a number with a unit

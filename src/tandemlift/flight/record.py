@@ -29,9 +29,7 @@ if TYPE_CHECKING:  # what few readers of a flight need, they load
     from tandemlift.parts.mechanics.vehicle import Vehicle
 
 FORMAT = 2
-LATE = 10.0
-"""Time [s] from which metrics with `after_10s` in their names are computed, to exclude a disturbed start."""
-
+LATE = 10.0  # s, from which metrics with `after_10s` in their names are computed, to exclude a disturbed start
 
 ENDING_TEXT = "{outcome} at {time:.6g} s: {quantity} = {value:.6g}, {limit}"
 CAUSE_TEXT = "{outcome} at {time:.6g} s: {cause}"
@@ -108,6 +106,13 @@ class Flight(Mapping[str, Array]):
         from tandemlift.parts.contact.corridor import wall_tables
 
         return wall_tables(self.mission)
+
+    @property
+    def floor_height(self) -> float | None:
+        """Height z of the mission's floor [m]; None where there is none."""
+        from tandemlift.parts.contact.standing import floor_height
+
+        return floor_height(self.mission)
 
     @property
     def outcome(self) -> str:
@@ -288,9 +293,7 @@ def _flight(header: dict[str, Any], arrays: dict[str, Array]) -> Flight:
     findings = tuple(finding_from(table) for table in header.get("findings", ()))
     moment = "push_moment_estimate"
     if "payload" in header["channels"].get(moment, {}).get("meaning", ""):  # about that centre, in version 1.0
-        from tandemlift.parts.mechanics.vehicle import Vehicle
-
-        center, push = Vehicle.from_mission(mission).payload_center, arrays["push_estimate"]
+        center, push = Flight(time, {}, mission, {}).vehicle.payload_center, arrays["push_estimate"]
         arrays[moment] = arrays[moment] + moment_of(center, arrays["estimated_attitude"], push)
     known = "sensors" in mission and np.isfinite(time).all()
     if known and not STAMP.keys() & arrays.keys():  # a record of version 1.0

@@ -11,7 +11,7 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import Any, Literal, NamedTuple
 
 from tandemlift.core.errors import InputError
-from tandemlift.core.progress import always, progress_or_own
+from tandemlift.core.progress import Stopped, always, progress_or_own
 from tandemlift.core.types import Progress, leaves, unflat
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, MissionLike, mission_of
@@ -24,8 +24,29 @@ from tandemlift.simulation.preparation import LANES, FlightMemory
 from tandemlift.simulation.results import RawResult, flight_of, metrics_of, take_metrics
 from tandemlift.simulation.stepping import body_of, fly_stepwise
 
+STRETCH = 0.1  # s of flight code between updates of the progress bar and checks for Ctrl-C
+FIRST_STRETCH = 5_000  # steps of the first stretch of code
 SORTED = 8 * LANES  # flights of one variant that are sorted before they are cut into blocks
 WAITING = 64 * LANES  # flights, at most, that wait for others of their variant
+
+
+def _stretches(p: FlightPlan, memory: FlightMemory, going: Callable[[], bool]) -> Iterator[int]:
+    """Fly to the end in stretches of some tenth of a second; yields the step reached after each."""
+    pace = memory.code.pace or FIRST_STRETCH  # few stretches seldom wait for Python's lock
+    for end in [p.late_step, p.steps + 1] if p.late_step < p.steps else [p.steps + 1]:
+        while memory.k < min(end, p.steps):
+            if not going():
+                raise Stopped
+            stop = end if memory.k + pace >= end - 1 else memory.k + pace  # never the last sample alone
+            began = time.perf_counter()
+            before, after = memory.k, memory.fly(stop)
+            spent = time.perf_counter() - began
+            memory.code.add_time(spent)
+            yield after
+            if after < min(stop, p.steps):
+                return
+            pace = max(FIRST_STRETCH, int((after - before) * min(STRETCH / max(spent, 1e-9), 4.0)))
+            memory.code.pace = pace
 
 
 def _fly_compiled(
@@ -42,7 +63,7 @@ def _fly_compiled(
     code = p.loop_code.loop(len(lanes), going, differ=p.loop_code.parts_that_differ(starts))
     memory = FlightMemory(code, starts, p.grid(rows, every), leaves(p.sample))
     began, early = time.perf_counter(), [EMPTY] * len(lanes)
-    for k in memory.stretches(p.late_step, going):
+    for k in _stretches(p, memory, going):
         if k == p.late_step < p.steps:
             early = take_metrics(memory.numbers, p.model, len(lanes))
         if progress:
@@ -64,7 +85,7 @@ def _fly_compiled(
 
 
 def fly(mission: MissionLike, engine: str | None = None, *, progress: Progress | None = None) -> Flight:
-    """Fly a mission that is prepared anew; otherwise as `simulation.known_flights.fly`."""
+    """Fly a mission that is prepared anew; otherwise as `codegen.known_flights.fly`, which is `tl.fly`."""
     return fly_plan(plan_of(mission, engine), progress)[0]
 
 

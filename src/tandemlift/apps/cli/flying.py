@@ -18,10 +18,10 @@ from tandemlift.core.files import FLIGHT_FILE, parse_setting
 from tandemlift.pictures.drawing.figure import STYLES, figure_style
 
 if TYPE_CHECKING:
+    from tandemlift.codegen.known_flights import KnownFile
     from tandemlift.flight.record import Flight
     from tandemlift.missions import Mission
     from tandemlift.parts.controllers import Controller
-    from tandemlift.simulation.known_flights import FlightFile
 
 DRAWINGS = (".png", ".pdf", ".svg")  # endings of a figure on its own
 HTML = (".html", ".htm")
@@ -118,11 +118,8 @@ def load(mission: str, settings: tuple[str, ...], controller: Controller | str |
 # the files of a flight
 
 
-def write_flight(flight: Flight, folder: Path, *, figures: bool, file: FlightFile | None = None) -> None:
-    """Write the files of a flight into the folder, and say where its figures are drawn, with a progress bar.
-
-    `file`: the mission's file, for what is known of it.
-    """
+def write_flight(flight: Flight, folder: Path, *, figures: bool, file: KnownFile | None = None) -> None:
+    """Write the files of a flight, of a mission's file, into the folder, and say where its figures are drawn."""
     from tandemlift.pictures.report.flight_report import mission_facts, write_flight_files
 
     replay = None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import click
 
@@ -16,9 +16,10 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.files import write_file
 
 if TYPE_CHECKING:
+    from tandemlift.codegen.known_flights import KnownFile
     from tandemlift.flight.record import Flight
     from tandemlift.missions import Mission
-    from tandemlift.simulation.known_flights import FlightFile
+    from tandemlift.parts.controllers import Controller
 
 
 @click.command()
@@ -75,60 +76,41 @@ def run(
 
     Exit code 3: crashed, diverged, interrupted or not lifted; what was flown is written. With --strict, also findings.
     """
+    from tandemlift.codegen.known_flights import KnownFile
+
     began, settings = time.perf_counter(), flying.with_after_crash(settings, after_crash)
-    alone = study is None and row is None and controller is None and engine in (None, "compiled")
-    file = _file_of(mission, settings) if mission and alone else None
-    known = file.known() if file else None
-    selected = None if known else _selected(mission, study, row, settings, controller, engine)
-    name = (known or selected).name  # type: ignore[union-attr]  # one of them is there
-    with results_folder(out, Path("out") / name, flying.FILES, mission) as folder:
-        flight = known.fly() if known else None
-        if flight is None:
-            selected = selected or _selected(mission, study, row, settings, controller, engine)
-            flight = fly_mission(selected.mission, engine or selected.engine, file)
-        recording = selected.mission.person.recording if selected else None  # a known flight has none
+    named = study is None and row is None and controller is None and engine in (None, "compiled")
+    file = KnownFile(mission, dict(map(flying.parse_setting, settings))) if mission and named else None
+    known = file.flight() if file else None
+    recording = None  # a known flight has none
+    if known is None:
+        from tandemlift.engines.registry import engine_named
+
+        chosen = None if controller is None else flying.chosen_controller(controller)
+        if engine is not None:
+            engine_named(engine)
+        loaded, own, name = _selected(mission, study, row, settings, chosen)
+        recording = loaded.person.recording
+    with results_folder(out, Path("out") / (known.name if known else name), flying.FILES, mission) as folder:
+        flight = known.fly() if known else fly_mission(loaded, engine or own, file)
         write_results(flight, folder, began, recording, figures=not no_figures, file=file)
     flying.exit_if_amiss({flight.name: flight}, strict=strict)
 
 
-class SelectedMission(NamedTuple):
-    """The mission to fly, the name of its results, and its engine if it has one of its own."""
-
-    mission: Mission
-    name: str
-    engine: str | None = None
-
-
-def _file_of(mission: str, settings: tuple[str, ...]) -> FlightFile:
-    from tandemlift.simulation.known_flights import FlightFile
-
-    return FlightFile(mission, dict(map(flying.parse_setting, settings)))
-
-
 def _selected(
-    mission: str | None,
-    study: str | None,
-    row: int | None,
-    settings: tuple[str, ...],
-    controller: str | None,
-    engine: str | None,
-) -> SelectedMission:
-    """The mission to fly: a mission by name, or a row of a study by number.
+    mission: str | None, study: str | None, row: int | None, settings: tuple[str, ...], controller: Controller | None
+) -> tuple[Mission, str | None, str]:
+    """The mission to fly, its engine and the name of its results: a mission by name, or a row of a study by number.
 
     Raises:
-        InputError: there is no such mission, study, row, controller or engine, the row is refused, or it is given
-            beside a mission or controller.
+        InputError: there is no such mission, study or row, the row is refused, or it is given beside a mission or
+            controller.
     """
-    chosen = None if controller is None else flying.chosen_controller(controller)
-    if engine is not None:
-        from tandemlift.engines.registry import engine_named
-
-        engine_named(engine)
     if study is None and row is None:
         if mission is None:
             raise click.UsageError("Missing argument 'MISSION'; `tandemlift missions` lists them.")
-        loaded = flying.load(mission, settings, chosen)
-        return SelectedMission(loaded, loaded.mission.name)
+        loaded = flying.load(mission, settings, controller)
+        return loaded, None, loaded.mission.name
     if study is None or row is None:
         raise InputError("--from STUDY --row N: give both, or neither")
     if mission is not None or controller is not None:
@@ -136,15 +118,11 @@ def _selected(
         raise InputError(f"{given}: a row of a study has its own; leave it out with --from")
     from tandemlift.analysis.studies.study import mission_of_row
 
-    loaded, own, name = mission_of_row(Path(study), row, dict(map(flying.parse_setting, settings)))
-    return SelectedMission(loaded, name, own)
+    return mission_of_row(Path(study), row, dict(map(flying.parse_setting, settings)))
 
 
-def fly_mission(mission: Mission, engine: str | None, file: FlightFile | None = None) -> Flight:
-    """Fly a mission, with a progress bar; the error of a user's own controller names its line.
-
-    `file`: in which the mission stands, for what is known of its flight next time.
-    """
+def fly_mission(mission: Mission, engine: str | None, file: KnownFile | None = None) -> Flight:
+    """Fly a mission, which may stand in a file, with a progress bar; an error of a user's controller names its line."""
     from tandemlift.parts.controllers.registry import explained
     from tandemlift.simulation.fly import fly_plan, plan_of
 
@@ -162,13 +140,7 @@ def fly_mission(mission: Mission, engine: str | None, file: FlightFile | None = 
 
 
 def write_results(
-    flight: Flight,
-    folder: Path,
-    began: float,
-    recording: str | None,
-    *,
-    figures: bool,
-    file: FlightFile | None = None,
+    flight: Flight, folder: Path, began: float, recording: str | None, *, figures: bool, file: KnownFile | None = None
 ) -> None:
     """Print the summary of a flight, write its files, and print the time since `began` [s], by `time.perf_counter`.
 

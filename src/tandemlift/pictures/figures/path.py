@@ -18,7 +18,6 @@ from matplotlib.patches import FancyArrowPatch, Patch
 
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.parts.contact.standing import floor_height
 from tandemlift.pictures.drawing.figure import Caption, all_flights
 from tandemlift.pictures.drawing.overlay import Flights, legend_of_flights, look
 from tandemlift.pictures.drawing.panels import Mask, decimate, drawable, legend_above
@@ -164,7 +163,7 @@ def _draw_path(scene: Scene3D, path: Array, look: dict[str, Any]) -> list[Any]:
 
 def _floor(flight: Flight, around: Array) -> float | None:
     """Height of the floor [m] if there is one not far below the points (n, 3) that are shown."""
-    height = floor_height(flight.mission)
+    height = flight.floor_height
     return height if height is not None and around[:, 2].min() - height < DEEP * np.ptp(around, axis=0).max() else None
 
 

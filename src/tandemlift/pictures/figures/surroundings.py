@@ -15,7 +15,6 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from tandemlift.flight.record import Flight
-from tandemlift.parts.contact.standing import floor_height
 from tandemlift.pictures.drawing.figure import Caption, with_any_of
 from tandemlift.pictures.drawing.overlay import over_time
 from tandemlift.pictures.drawing.panels import components, fit, legend_above, line, scaling, shade, time_axis
@@ -76,7 +75,7 @@ def draw(flight: Flight) -> Figure:
         for name, label, least in VECTORS
         if name in flight.channels
     ]
-    if (floor := floor_height(flight.mission)) is not None:
+    if (floor := flight.floor_height) is not None:
         panels.append((HEIGHT, lambda ax: _height(ax, flight, floor)))
     figure = page_figure(AROUND + ROW * len(panels))
     axes = figure.subplots(len(panels), 1, squeeze=False)[:, 0]

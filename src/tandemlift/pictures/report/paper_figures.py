@@ -22,7 +22,6 @@ from tandemlift.core.files import atomic_write
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, load_mission
-from tandemlift.parts.contact.standing import floor_height
 from tandemlift.pictures.drawing.figure import Caption
 from tandemlift.pictures.drawing.overlay import over_time
 from tandemlift.pictures.drawing.scene import NEAR, on_paper
@@ -239,7 +238,7 @@ def _walls(ax: Axes, flight: Flight, place: Array, floor: float) -> list[Array]:
 
 def _stage(ax: Axes, flight: Flight, k: int) -> None:
     """Draw one instant."""
-    place, floor = flight["position"][k], floor_height(flight.mission) or 0.0
+    place, floor = flight["position"][k], flight.floor_height or 0.0
     ground = place + np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]) * [*AROUND, 0.0]
     ground[:, 2] = floor
     ax.add_collection(PolyCollection([on_paper(ground)], facecolor=GROUND, lw=0.0, zorder=0))

@@ -6,15 +6,11 @@ A flight is a flat array of the numbers of a `FlightModel`; a block holds LANES 
 instruction serves all of them. The laws are the same, and so is every bit of the result.
 """
 
-import importlib
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from tandemlift.simulation.loop.external_inputs import GAUSSIAN, GUST, LANES, SPAN, InputTables
-    from tandemlift.simulation.loop.sources import LeafSpan, delayed_spans, leaf_offset
-    from tandemlift.simulation.preparation.compiled_flight import LoopCode
-    from tandemlift.simulation.preparation.memory import FlightMemory, FlightStart, TimeGrid
-    from tandemlift.simulation.preparation.templates import COMMAND, GIVEN, PythonController
+from tandemlift.simulation.loop.external_inputs import GAUSSIAN, GUST, LANES, SPAN, InputTables
+from tandemlift.simulation.loop.sources import LeafSpan, delayed_spans, leaf_offset
+from tandemlift.simulation.preparation.compiled_flight import LoopCode
+from tandemlift.simulation.preparation.memory import FlightMemory, FlightStart, TimeGrid
+from tandemlift.simulation.preparation.templates import COMMAND, GIVEN, PythonController
 
 __all__ = [
     "COMMAND",
@@ -33,18 +29,3 @@ __all__ = [
     "delayed_spans",
     "leaf_offset",
 ]
-
-_HOMES = {  # loaded when first used: a flight that is known needs its memory alone
-    "simulation.loop.external_inputs": ("GAUSSIAN", "GUST", "LANES", "SPAN", "InputTables"),
-    "simulation.loop.sources": ("LeafSpan", "delayed_spans", "leaf_offset"),
-    "simulation.preparation.compiled_flight": ("LoopCode",),
-    "simulation.preparation.memory": ("FlightMemory", "FlightStart", "TimeGrid"),
-    "simulation.preparation.templates": ("COMMAND", "GIVEN", "PythonController"),
-}
-
-
-def __getattr__(name: str) -> Any:
-    for home, names in _HOMES.items():
-        if name in names:
-            return getattr(importlib.import_module(f"tandemlift.{home}"), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -6,23 +6,24 @@ a step keeps for its later parts.
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator, Sequence
-from functools import cache
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.compiler.machine_code.code import Code
-from tandemlift.core.progress import Stopped, always
 from tandemlift.core.types import flat
+from tandemlift.parts.interaction.person import PathLeg
+from tandemlift.parts.mechanics.push import GaussianPush
+from tandemlift.parts.mechanics.wall_geometry import Wall
+from tandemlift.parts.mechanics.wind import Gust
+from tandemlift.simulation.loop.external_inputs import ROWS, InputTables
 
 Numbers = NDArray[np.float64]
 Words = NDArray[np.int64]
+IDLE = ROWS._replace(pushes=ROWS.pushes._replace(per_sigma=1.0))  # rows without effect
 NEVER = -1  # the number of no step
-STRETCH = 0.1  # s of flight code between updates of the progress bar and checks for Ctrl-C
-FIRST_STRETCH = 5_000  # steps of the first stretch of code
 TABLES = ("pushes", "gusts", "walls", "legs")
 COUNTS = ("push_count", "gust_count", "wall_count", "leg_count")
 
@@ -69,17 +70,9 @@ class FlightStart(NamedTuple):
     """A flight at its first step: numbers, tables, delay lines (rows × numbers), and the key of its random numbers."""
 
     numbers: Numbers
-    tables: Sequence[Numbers]
+    tables: InputTables
     ring: Numbers
     keys: Numbers
-
-
-@cache
-def idle_rows() -> list[list[float]]:
-    """A row without effect for each table."""
-    from tandemlift.simulation.loop.external_inputs import ROWS
-
-    return list(map(flat, ROWS._replace(pushes=ROWS.pushes._replace(per_sigma=1.0))))
 
 
 class TimeGrid(NamedTuple):
@@ -160,13 +153,11 @@ class FlightMemory:
             array.reshape(-1, lanes)[:, lane] = own.ravel()
 
     def _write_tables(self) -> None:
-        tables = self._tables_of_lanes
-        alone = len(self.starts) == 1
-        self._tables = [_alone(own[0]) for own in tables] if alone else list(map(_woven, tables, idle_rows()))
+        self._tables = [_table(tables, idle) for tables, idle in zip(self._tables_of_lanes, IDLE, strict=True)]
         for word, table in zip(TABLES, self._tables, strict=True):
             self.put(word, table.ctypes.data)
-        for word, of_lanes in zip(COUNTS, tables, strict=True):
-            self.put(word, max(map(len, of_lanes)))
+        for word, tables in zip(COUNTS, self._tables_of_lanes, strict=True):
+            self.put(word, max(map(len, tables)))
 
     @property
     def _tables_of_lanes(self) -> list[tuple[Numbers, ...]]:
@@ -176,6 +167,13 @@ class FlightMemory:
         """Set a word of the context."""
         self._context[AT[word]] = value
 
+    @property
+    def held(self) -> dict[str, Numbers]:
+        """What its flights begin with: its context as it is, as `words`, and the arrays that this has addresses of."""
+        arrays = self.numbers, self.ring, self.grid.delays, self.keys, self.last, *self._tables
+        names = "flight", "ring", "delays", "keys", "last", *TABLES
+        return {"words": self._context, **dict(zip(names, arrays, strict=True))}
+
     def fly(self, stop: int) -> int:
         """Fly on to step `stop`; a flight alone stops where it crashes or diverges. The step reached."""
         self.put("k", self.k)
@@ -184,30 +182,6 @@ class FlightMemory:
         self.put("fresh", 0)
         return self.k
 
-    def stretches(self, late: int, going: Callable[[], bool] = always) -> Iterator[int]:
-        """Fly to the end in stretches of some tenth of a second, one of which ends at step `late`.
-
-        Yields the step reached after each.
-
-        Raises:
-            Stopped: `going()` was false before a stretch.
-        """
-        steps, pace = self.grid.steps, self.code.pace or FIRST_STRETCH  # few stretches seldom wait for Python's lock
-        for end in [late, steps + 1] if late < steps else [steps + 1]:
-            while self.k < min(end, steps):
-                if not going():
-                    raise Stopped
-                stop = end if self.k + pace >= end - 1 else self.k + pace  # never the last sample alone
-                began = time.perf_counter()
-                before, after = self.k, self.fly(stop)
-                spent = time.perf_counter() - began
-                self.code.add_time(spent)
-                yield after
-                if after < min(stop, steps):
-                    return
-                pace = max(FIRST_STRETCH, int((after - before) * min(STRETCH / max(spent, 1e-9), 4.0)))
-                self.code.pace = pace
-
     def span(self, name: str) -> slice:
         """The place of a span of the scratch memory."""
         at, size = self.code.about["rooms"][name]
@@ -215,19 +189,12 @@ class FlightMemory:
         return slice(at * lanes, (at + size) * lanes)
 
 
-def _alone(table: Numbers) -> Numbers:
-    """The table of a flight alone."""
-    placed = aligned(table.size)
-    placed[:] = table.ravel()
-    return placed
-
-
-def _woven(tables: Sequence[Numbers], idle: list[float]) -> Numbers:
+def _table(tables: Sequence[Numbers], idle: Wall | GaussianPush | Gust | PathLeg) -> Numbers:
     """A table of all lanes: row i holds row i of every lane's table, an idle row where a lane has fewer."""
-    lanes = len(tables)
-    woven = aligned(max(map(len, tables)) * len(idle) * lanes)
-    rows = woven.reshape(-1, len(idle), lanes)
-    rows[:] = np.array(idle)[:, None]
+    lanes, numbers = len(tables), flat(idle)
+    woven = aligned(max(map(len, tables)) * len(numbers) * lanes)
+    rows = woven.reshape(-1, len(numbers), lanes)
+    rows[:] = np.array(numbers)[:, None]
     for lane, own in enumerate(tables):
         rows[: len(own), :, lane] = own
     return woven

@@ -13,11 +13,11 @@ from edited_package import EditedPackage
 from patience import completed
 
 import tandemlift as tl
+from tandemlift.codegen import known_flights
+from tandemlift.codegen.known_flights import WITH_LAWS, KnownFile
 from tandemlift.compiler.machine_code import store
 from tandemlift.missions import built_in
-from tandemlift.simulation import known_flights
 from tandemlift.simulation.fly import fly_plan
-from tandemlift.simulation.known_flights import WITH_LAWS, FlightFile
 from tandemlift.simulation.plan import FlightPlan
 
 PACKAGE = Path(tl.__file__).parent
@@ -54,7 +54,7 @@ def file(tmp_path):
 def unaware(monkeypatch):
     """This process counts as one that has loaded no laws and began after the last edit of the sources."""
     monkeypatch.setattr(known_flights, "WITH_LAWS", re.compile("none of them"))
-    monkeypatch.setattr(known_flights, "LOADED", 1 << 62)
+    monkeypatch.setattr(store, "LOADED", 1 << 62)
 
 
 def test_a_known_flight_is_the_prepared_one_until_a_file_that_it_extends_changes(file, tmp_path):
@@ -71,7 +71,7 @@ def test_a_known_flight_is_the_prepared_one_until_a_file_that_it_extends_changes
 
 def test_an_edit_of_a_law_a_table_or_a_built_in_mission_is_flown(tmp_path):
     package = EditedPackage(tmp_path)
-    time.sleep(2e-9 * known_flights.MARGIN)
+    time.sleep(2e-9 * store.MARGIN)
     fly = 'import sys, tandemlift as tl\nflight = tl.fly("one-push")\n'
     fly += 'print("tandemlift.parts" in sys.modules, flight["position"].sum().hex(), len(flight.time))'
     first, again = package.run(fly).split(), package.run(fly).split()
@@ -106,8 +106,8 @@ def test_every_module_with_a_law_a_choice_a_table_or_a_registry_counts_as_one_th
 
 @pytest.mark.parametrize("before", ["import tandemlift.parts.controllers", "tl.load_mission('hover')", "tl.Pilot"])
 def test_a_process_that_has_loaded_laws_neither_finds_nor_keeps_a_flight(before):
-    code = f"import tandemlift as tl; from tandemlift.simulation.known_flights import FlightFile\n{before}\n"
-    done = completed([sys.executable, "-c", code + "print([FlightFile('hover')._key])"], capture_output=True, text=True)
+    code = f"import tandemlift as tl; from tandemlift.codegen.known_flights import KnownFile\n{before}\n"
+    done = completed([sys.executable, "-c", code + "print([KnownFile('hover')._key])"], capture_output=True, text=True)
     assert done.stdout == "['']\n", done.stderr
 
 
@@ -115,14 +115,14 @@ def test_a_process_that_began_before_a_source_changed_knows_no_flight(monkeypatc
     monkeypatch.setattr(known_flights, "WITH_LAWS", re.compile("none of them"))
     newest = max(path.stat().st_ctime_ns for path in PACKAGE.rglob("*.py"))
     for begun, knows in ((newest + 10**9, True), (newest - 1, False)):
-        monkeypatch.setattr(known_flights, "LOADED", begun)
-        assert bool(FlightFile("hover")._key) is knows
+        monkeypatch.setattr(store, "LOADED", begun)
+        assert bool(KnownFile("hover")._key) is knows
 
 
 def test_missions_settings_versions_processors_and_mathematics_have_keys_of_their_own(unaware, monkeypatch):
     changes = [{}, SHORT, {"mission.seed": 1}, {"mission.seed": 1.0}, {"mission.seed": True}, {"plant.mass_scale": 0.0}]
     changes += [{"plant.mass_scale": -0.0}, {"pushes": []}, {"pushes": ()}]
-    keys = [FlightFile(name)._key for name in built_in()] + [FlightFile("hover", c)._key for c in changes[1:]]
+    keys = [KnownFile(name)._key for name in built_in()] + [KnownFile("hover", c)._key for c in changes[1:]]
     for change in (
         lambda: monkeypatch.setattr("numpy.__version__", "0"),
         lambda: monkeypatch.setattr("llvmlite.__version__", "0"),
@@ -130,28 +130,28 @@ def test_missions_settings_versions_processors_and_mathematics_have_keys_of_thei
         lambda: monkeypatch.setenv("OPENBLAS_CORETYPE", "Haswell"),
     ):
         change()
-        keys.append(FlightFile("hover")._key)
+        keys.append(KnownFile("hover")._key)
     assert all(keys)
     assert len(set(keys)) == len(keys)
 
 
 def test_names_and_values_that_are_more_than_text_have_no_key(unaware, tmp_path):
-    assert FlightFile("no such mission")._key == FlightFile(tmp_path / "saved.zip")._key == ""
-    assert FlightFile("hover", {"mission.duration": __import__("numpy").float64(1.0)})._key == ""
+    assert KnownFile("no such mission")._key == KnownFile(tmp_path / "saved.zip")._key == ""
+    assert KnownFile("hover", {"mission.duration": __import__("numpy").float64(1.0)})._key == ""
 
 
 def remembered(name, changes):
     """A mission's file after its flight, and the flight."""
-    known = FlightFile(name, changes)
+    known = KnownFile(name, changes)
     flight, raw = fly_plan(p := FlightPlan(tl.load_mission(name, changes)))
     known.remember(p, flight, raw)
-    return FlightFile(name, changes), flight
+    return KnownFile(name, changes), flight
 
 
 @pytest.mark.parametrize("name", sorted(built_in()))
 def test_a_known_flight_of_a_built_in_mission_has_the_record_of_a_prepared_one(name, unaware):
     file, flight = remembered(name, {"mission.log_interval": 0.05})
-    again = file.known().fly()
+    again = file.flight().fly()
     flight.results["wall_s"] = again.results["wall_s"] = 0.0
     assert again == flight
     assert repr(again.results) == repr(flight.results)
@@ -159,11 +159,11 @@ def test_a_known_flight_of_a_built_in_mission_has_the_record_of_a_prepared_one(n
 
 
 def test_a_flight_of_a_file_that_was_edited_meanwhile_is_not_kept(unaware, file):
-    known = FlightFile(file)
+    known = KnownFile(file)
     flight, raw = fly_plan(p := FlightPlan(tl.load_mission(file)))
     file.write_text(file.read_text() + "# an edit\n")
     known.remember(p, flight, raw)
-    assert FlightFile(file).known() is None
+    assert KnownFile(file).flight() is None
 
 
 def test_facts_of_a_file_are_made_anew_after_the_file_that_it_extends_was_edited(unaware, file):
@@ -171,9 +171,9 @@ def test_facts_of_a_file_are_made_anew_after_the_file_that_it_extends_was_edited
     for duration in ("0.3", "0.2", "0.3"):
         base = file.with_name("base.toml")
         base.write_text(re.sub("duration = .*", f"duration = {duration}", base.read_text()))
-        time.sleep(2e-9 * known_flights.MARGIN)
+        time.sleep(2e-9 * store.MARGIN)
         remembered(file, {})
-        made.append(FlightFile(file).facts("test", lambda seconds=duration: {"seconds": seconds}))
+        made.append(KnownFile(file).facts("test", lambda seconds=duration: {"seconds": seconds}))
     assert made == [{"seconds": "0.3"}, {"seconds": "0.2"}, {"seconds": "0.3"}]
 
 
@@ -193,28 +193,28 @@ def test_a_flight_that_is_changed_ends_early_or_is_warned_of_is_not_kept(changes
         patch.setattr(tl.FlightWarning, "count", 0)
         file, flight = remembered("paper", SHORT | changes)
         assert flight.ending or tl.FlightWarning.count or changes.get("changes")
-    assert file.known() is None
+    assert file.flight() is None
 
 
 def test_a_flight_that_ends_with_other_numbers_is_not_taken_for_the_known_one(unaware, monkeypatch):
     file, _ = remembered("hover", SHORT)
     key = f"{file._key}-flight"
     entry = store.read(key)
-    assert file.known().fly() is not None
+    assert file.flight().fly() is not None
     store.write(key, entry._replace(about={**entry.about, "ending": "0" * 32}))
-    assert file.known().fly() is None
+    assert file.flight().fly() is None
     store.write(key, entry._replace(code=entry.code[:-8] + b"\0" * 8, about=json.loads(json.dumps(entry.about))))
     store.remove(key)
-    assert file.known() is None
+    assert file.flight() is None
 
 
 def test_a_known_flight_compiles_its_own_module_where_the_code_is_gone(unaware, tmp_path, monkeypatch):
     file, flight = remembered("hover", SHORT)
     entry = store.read(f"{file._key}-flight")
     monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path))
-    assert file.known() is None
+    assert file.flight() is None
     store.write(f"{file._key}-flight", entry)
-    again = file.known().fly()
+    again = file.flight().fly()
     flight.results["wall_s"] = again.results["wall_s"] = 0.0
     assert again == flight
 
@@ -223,7 +223,7 @@ def test_facts_of_a_known_flight_are_made_once_and_those_of_others_each_time(una
     file, _ = remembered("hover", SHORT | {"mission.seed": 7})
     made = []
     make = lambda: made.append(1) or {"number": len(made)}  # noqa: E731
-    assert [FlightFile("hover", SHORT | {"mission.seed": 7}).facts("test", make) for _ in "ab"][1] == {"number": 1}
+    assert [KnownFile("hover", SHORT | {"mission.seed": 7}).facts("test", make) for _ in "ab"][1] == {"number": 1}
     assert file.facts("test", make) == {"number": 1}
-    other = FlightFile("hover", {"mission.duration": 0.31})
+    other = KnownFile("hover", {"mission.duration": 0.31})
     assert [other.facts("test", make), other.facts("test", make)] == [{"number": 2}, {"number": 3}]
