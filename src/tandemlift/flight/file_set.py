@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import errno
-import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 from tandemlift.core.files import aside, write_file
 
@@ -42,11 +40,3 @@ def _move(files: Mapping[Path, Path]) -> None:
     except KeyboardInterrupt:
         _move(files)
         raise
-
-
-def format_toml(tables: Mapping[str, Any]) -> str:
-    """Nested tables as TOML without loss, with lists of numbers on one line."""
-    import tomli_w
-
-    text = re.sub(r"\[\n\s*([-+.\w\s,]*),\n\s*\]", lambda m: f"[{' '.join(m[1].split())}]", tomli_w.dumps(tables))
-    return re.sub(r"\[\n\s*(\[[^\[\]\n]*\]),\n\s*\]", r"[\1]", text)  # a list of one such list

@@ -108,13 +108,6 @@ class Flight(Mapping[str, Array]):
         return wall_tables(self.mission)
 
     @property
-    def floor_height(self) -> float | None:
-        """Height z of the mission's floor [m]; None where there is none."""
-        from tandemlift.parts.contact.standing import floor_height
-
-        return floor_height(self.mission)
-
-    @property
     def outcome(self) -> str:
         """The outcome, one of `core.phases.OUTCOMES`; "unknown" for a flight that was read from a bag."""
         return self.results.get("outcome", "unknown")

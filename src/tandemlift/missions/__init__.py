@@ -6,8 +6,7 @@ else is replaced, and another `controller.name` starts from that controller's de
 A function that needs a part of a mission takes that table, or `Mission.hover`: their types are here, too.
 """
 
-from tandemlift.flight.file_set import format_toml
-from tandemlift.missions.changes import merge, tables_of
+from tandemlift.missions.changes import format_toml, merge, tables_of
 from tandemlift.missions.checking import changed, check
 from tandemlift.missions.keys.acting import IdleKey, idle_keys, sentences
 from tandemlift.missions.loading import (

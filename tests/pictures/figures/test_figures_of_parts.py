@@ -17,7 +17,7 @@ from tandemlift.pictures.drawing.figure import IEEE
 from tandemlift.pictures.drawing.scene import NEAR, Scene3D, on_paper
 from tandemlift.pictures.drawing.style import COMPONENTS, LIGHT_BLUE, PALE
 from tandemlift.pictures.drawing.surroundings import clearance, draw_walls
-from tandemlift.pictures.drawing.vehicle import true_payload_mass
+from tandemlift.pictures.drawing.vehicle import floor_height, true_payload_mass
 from tandemlift.pictures.figures.registry import figures, figures_for
 
 WIND = {"wind.model": "air", "wind.velocity": [2.0, 1.0, 0.0], "wind.turbulence": 6.0}
@@ -296,7 +296,7 @@ def test_the_height_is_the_lowest_soles_over_the_floor_that_the_engine_has(windy
     mission = tl.load_mission("iris", WIND)
     vehicle = Vehicle.from_settings(mission.vehicle)
     floor = floor_from(mission, vehicle).height
-    assert windy.floor_height == pytest.approx(floor, abs=1e-12)
+    assert floor_height(windy) == pytest.approx(floor, abs=1e-12)
     height = clearance(windy, floor)
     assert_drawn(lines(drawn["surroundings"].axes[3])[0], windy.time, height)
     k = int(np.argmax(np.abs(windy["euler"]).max(axis=1)))
@@ -312,8 +312,8 @@ def test_the_height_is_the_lowest_soles_over_the_floor_that_the_engine_has(windy
 
 
 def test_a_floor_may_be_given_or_absent(windy, paper):
-    assert paper.floor_height is None
-    assert with_mission(windy, ground={"model": "floor", "height": -3.0}).floor_height == -3.0
+    assert floor_height(paper) is None
+    assert floor_height(with_mission(windy, ground={"model": "floor", "height": -3.0})) == -3.0
     shadows = [figures()["path"].draw(flight).legends[0].get_texts()[1].get_text() for flight in (paper, windy)]
     assert shadows == ["its shadow", "its shadow on the floor"]
 
@@ -331,7 +331,7 @@ def on_the_paper(points, corners):
 
 def test_the_floor_is_filled_at_its_height_and_none_where_there_is_none(windy, paper, drawn):
     ((corners, _),) = polygons(drawn["path"], "floor")
-    level = corners - on_paper([0.0, 0.0, windy.floor_height])
+    level = corners - on_paper([0.0, 0.0, floor_height(windy)])
     places = np.linalg.solve(on_paper(np.eye(3)[:2]).T, level.T)
     assert places == pytest.approx(np.round(places), abs=1e-9), "the floor ends on the grid of metres"
     path = windy["position"].T[:2]
@@ -348,7 +348,7 @@ def test_walls_are_drawn_where_they_stand_before_or_behind_the_path(windy, drawn
     along = np.array([-away[1], away[0]])
     ends = {"near": middle[:2] + 2.0 * away, "far": middle[:2] - 2.0 * away, "lost": middle[:2] + 500.0}
     walls = [{"start": list(p - 0.2 * along), "end": list(p + 0.2 * along), "top": 1.25} for p in ends.values()]
-    floor = windy.floor_height
+    floor = floor_height(windy)
     figure = figures()["path"].draw(with_mission(windy, walls=walls))
     near, far = polygons(figure, "wall")
     (path,) = (line for line in figure.axes[0].get_lines() if line.get_gid() == "path")

@@ -37,7 +37,7 @@ from tandemlift.pictures.drawing.style import (
     styled,
 )
 from tandemlift.pictures.drawing.surroundings import WallOutline, draw_walls, walls_near
-from tandemlift.pictures.drawing.vehicle import Skeleton, body_to_world, skeleton
+from tandemlift.pictures.drawing.vehicle import Skeleton, body_to_world, floor_height, skeleton
 
 CAPTION = Caption(
     "Path",
@@ -163,7 +163,7 @@ def _draw_path(scene: Scene3D, path: Array, look: dict[str, Any]) -> list[Any]:
 
 def _floor(flight: Flight, around: Array) -> float | None:
     """Height of the floor [m] if there is one not far below the points (n, 3) that are shown."""
-    height = flight.floor_height
+    height = floor_height(flight)
     return height if height is not None and around[:, 2].min() - height < DEEP * np.ptp(around, axis=0).max() else None
 
 

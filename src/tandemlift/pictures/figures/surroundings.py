@@ -20,7 +20,7 @@ from tandemlift.pictures.drawing.overlay import over_time
 from tandemlift.pictures.drawing.panels import components, fit, legend_above, line, scaling, shade, time_axis
 from tandemlift.pictures.drawing.style import BLUE, COMPONENTS, GREY, INK, PALE, journal, page_figure
 from tandemlift.pictures.drawing.surroundings import clearance
-from tandemlift.pictures.drawing.vehicle import true_weight
+from tandemlift.pictures.drawing.vehicle import floor_height, true_weight
 
 CAPTION = Caption(
     "Surroundings",
@@ -75,7 +75,7 @@ def draw(flight: Flight) -> Figure:
         for name, label, least in VECTORS
         if name in flight.channels
     ]
-    if (floor := flight.floor_height) is not None:
+    if (floor := floor_height(flight)) is not None:
         panels.append((HEIGHT, lambda ax: _height(ax, flight, floor)))
     figure = page_figure(AROUND + ROW * len(panels))
     axes = figure.subplots(len(panels), 1, squeeze=False)[:, 0]

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import FLIGHT_FILE, write_file
 from tandemlift.core.types import Progress
-from tandemlift.flight.file_set import format_toml, write_together
+from tandemlift.flight.file_set import write_together
 from tandemlift.flight.printed_summary import notes
 from tandemlift.flight.record import Flight, counted_until
 from tandemlift.pictures.figures.registry import captions, figures_for
@@ -101,12 +101,12 @@ def _pngs(flight: Flight, figures: str | os.PathLike[str] | Iterable[str | os.Pa
 
 
 def mission_facts(flight: Flight) -> dict[str, Any]:
-    """What the report says of the flight's mission alone: `setup`, and whether it `is_built_in`, flown unchanged."""
-    from tandemlift.missions import built_in, load_mission, tables_of
+    """What is written of the flight's mission alone: `setup`, its `toml`, and whether it `is_built_in`, unchanged."""
+    from tandemlift.missions import built_in, format_toml, load_mission, tables_of
     from tandemlift.pictures.report.setup_section import setup_rows
 
     is_built_in = flight.name in built_in() and tables_of(load_mission(flight.name)) == flight.mission
-    return {"setup": setup_rows(flight), "is_built_in": is_built_in}
+    return {"setup": setup_rows(flight), "toml": format_toml(flight.mission), "is_built_in": is_built_in}
 
 
 def write_report(
@@ -146,7 +146,7 @@ def write_report(
         figures=[shown_figure(name, png, words[name]) for name, png in pngs.items()],
         metrics=list(_metrics(flight.metrics())),
         events=flight.metrics().get("events", []),
-        mission=format_toml(flight.mission),
+        mission=facts["toml"],
         is_built_in=facts["is_built_in"],
         versions=f"Flown with {', '.join(f'{name} {version}' for name, version in flight.version.items())}.",
     )
@@ -171,7 +171,8 @@ def write_flight_files(
         replay: a page that plays the flight, for the report.
         facts: `mission_facts`, if they are known.
     """
-    _write_data(flight, folder)
+    facts = facts or mission_facts(flight)
+    _write_data(flight, folder, facts["toml"])
     (folder / "report.html").unlink(missing_ok=True)
     if any((folder / "figures").glob("*.p[nd][gf]")):
         for name in captions():
@@ -182,11 +183,11 @@ def write_flight_files(
     write_report(flight, folder / "figures", folder / "report.html", replay, facts)
 
 
-def _write_data(flight: Flight, folder: Path) -> None:
+def _write_data(flight: Flight, folder: Path, toml: str) -> None:
     """Write mission, flight, metrics and findings: all of them, or none."""
     try:
         with write_together(folder) as aside:
-            write_file(aside / "mission.toml", format_toml(flight.mission))
+            write_file(aside / "mission.toml", toml)
             flight.save(aside / FLIGHT_FILE)
             for file, data in (
                 ("metrics.json", flight.metrics()),

@@ -38,7 +38,7 @@ from tandemlift.pictures.drawing.style import (
     styled,
 )
 from tandemlift.pictures.drawing.surroundings import walls_in
-from tandemlift.pictures.drawing.vehicle import Skeleton, skeleton
+from tandemlift.pictures.drawing.vehicle import Skeleton, floor_height, skeleton
 from tandemlift.pictures.figures.registry import figures, save_figure
 
 DATA = files("tandemlift") / "data" / "paper"
@@ -238,7 +238,7 @@ def _walls(ax: Axes, flight: Flight, place: Array, floor: float) -> list[Array]:
 
 def _stage(ax: Axes, flight: Flight, k: int) -> None:
     """Draw one instant."""
-    place, floor = flight["position"][k], flight.floor_height or 0.0
+    place, floor = flight["position"][k], floor_height(flight) or 0.0
     ground = place + np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]) * [*AROUND, 0.0]
     ground[:, 2] = floor
     ax.add_collection(PolyCollection([on_paper(ground)], facecolor=GROUND, lw=0.0, zorder=0))

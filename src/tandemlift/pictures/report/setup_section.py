@@ -10,6 +10,7 @@ from pydantic import TypeAdapter, ValidationError
 from tandemlift.core.errors import InputError, shown
 from tandemlift.flight import Flight
 from tandemlift.missions import Mission
+from tandemlift.pictures.drawing.vehicle import floor_height
 
 Row = tuple[str, str]
 
@@ -183,7 +184,7 @@ def _surroundings(flight: Flight) -> Iterator[Row]:
         parts += [f"gust of {_vector(g.velocity, 'm/s')} from {describe(g.start, 's')} on" for g in wind.gusts]
         said = "; ".join(parts)
     yield "Wind", said
-    ground, height = _table(flight, "ground"), flight.floor_height
+    ground, height = _table(flight, "ground"), floor_height(flight)
     if height is not None:
         effect = "; ground effect on the rotors" if ground.effect else ""
         yield "Floor", f"at z = {describe(height, 'm')}; friction {describe(ground.friction)}{effect}"
