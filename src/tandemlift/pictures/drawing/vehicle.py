@@ -9,6 +9,7 @@ import numpy as np
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.core.vector import Quat
 from tandemlift.flight.record import Flight
+from tandemlift.parts.contact.standing import GroundTable, floor_under
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle, mixer
 
