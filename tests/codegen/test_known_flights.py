@@ -112,7 +112,7 @@ def test_a_process_that_has_loaded_laws_neither_finds_nor_keeps_a_flight(before)
 
 def test_a_process_that_began_before_a_source_changed_knows_no_flight(monkeypatch):
     monkeypatch.setattr(known_flights, "WITH_LAWS", re.compile("none of them"))
-    newest = max(path.stat().st_ctime_ns for path in PACKAGE.rglob("*.py"))
+    newest = max(path.stat().st_ctime_ns for room in store.ROOMS for path in (PACKAGE / room).rglob("*.py"))
     for begun, knows in ((newest + 10**9, True), (newest - 1, False)):
         monkeypatch.setattr(store, "LOADED", begun)
         assert bool(KnownFile("hover")._key) is knows
@@ -223,9 +223,9 @@ def test_a_known_flight_compiles_its_own_module_where_the_code_is_gone(unaware, 
 
 def test_facts_of_a_known_flight_are_made_once_and_those_of_others_each_time(unaware):
     file, _ = remembered("hover", SHORT | {"mission.seed": 7})
-    made = []
+    made, name = [], f"test-{os.urandom(6).hex()}"
     make = lambda: made.append(1) or {"number": len(made)}  # noqa: E731
-    assert [KnownFile("hover", SHORT | {"mission.seed": 7}).facts("test", make) for _ in "ab"][1] == {"number": 1}
-    assert file.facts("test", make) == {"number": 1}
+    assert [KnownFile("hover", SHORT | {"mission.seed": 7}).facts(name, make) for _ in "ab"][1] == {"number": 1}
+    assert file.facts(name, make) == {"number": 1}
     other = KnownFile("hover", {"mission.duration": 0.31})
-    assert [other.facts("test", make), other.facts("test", make)] == [{"number": 2}, {"number": 3}]
+    assert [other.facts(name, make), other.facts(name, make)] == [{"number": 2}, {"number": 3}]
