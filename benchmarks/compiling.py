@@ -71,6 +71,15 @@ if importlib.util.find_spec("tandemlift.compiler"):
 tl.fly(mission, progress=first)
 """
 BLOCK = f'{LOAD}tl.fly_many([mission] * 64, keep="metrics")'
+IMPORT = "import tandemlift as tl; tl.fly"
+BY_NAME = f"import sys; {IMPORT}(sys.argv[1])"
+CALL = f"""
+import json, sys, time
+{IMPORT}
+began = time.perf_counter(), time.process_time()
+tl.fly(sys.argv[1])
+print(json.dumps([time.perf_counter() - began[0], time.process_time() - began[1]]))
+"""
 AGAIN = f"""{LOAD}
 def spent():
     began = time.perf_counter(), time.process_time()
@@ -184,11 +193,11 @@ def script(code: str, mission: str, changes: dict[str, Any] | None = None) -> Ca
     return lambda checkout, environment: process([checkout.python, "-c", code, *given], environment)[0]
 
 
-def again(mission: str) -> Callable[..., Spent]:
-    """Fly a mission time and again in one process: the median of a flight."""
+def told(code: str, mission: str) -> Callable[..., Spent]:
+    """Run Python on a mission, which says what it took."""
 
     def measure(checkout: Checkout, environment: dict[str, str]) -> Spent:
-        return Spent(*json.loads(process([checkout.python, "-c", AGAIN, mission, "{}"], environment)[1]))
+        return Spent(*json.loads(process([checkout.python, "-c", code, mission, "{}"], environment)[1]))
 
     return measure
 
@@ -237,6 +246,7 @@ def jobs() -> list[Job]:
     page, address = ("live", "zigzag", "--no-browser", "--port=0"), r"http://\S+"
     live, flying = command(*page, until=address), command(*page, until=address, more=flown)
     runs = {name: command("run", name, "--no-figures") for name in ("paper", "iris")}
+    drawn, named, call = command("run", "paper"), script(BY_NAME, "paper"), told(CALL, "paper")
     firsts = {"paper": "20", "iris": "40", "zigzag": "40"}
     bests = {"paper": "8", "iris": "20", "zigzag": "20"}
     return [
@@ -246,8 +256,15 @@ def jobs() -> list[Job]:
         Job("`live zigzag`, empty cache, served", live),
         Job("`live zigzag`, empty cache, first step", flying, "20"),
         Job("`live zigzag`, warm, served", live, "1.25", live),
-        *[Job(f"`run {name} --no-figures`, warm", run, "1.25", run) for name, run in runs.items()],
-        *[Job(f"one `tl.fly` of `{name}`, optimised, warm", again(name), "1.25", script(BEST, name)) for name in runs],
+        *[Job(f"`run {name} --no-figures`, warm", run, "2", run) for name, run in runs.items()],
+        Job("`run paper`, figures and report, warm", drawn, "2", drawn),
+        Job("`import` of `tl.fly` and `tl.fly('paper')`, warm", named, "1.67", named),
+        Job("`import` of `tl.fly`", script(IMPORT, "paper"), "1.67", named),
+        Job("first `tl.fly('paper')`, warm, without the import", call, "1.67", named),
+        *[
+            Job(f"one `tl.fly` of `{name}`, optimised, warm", told(AGAIN, name), "1.25", script(BEST, name))
+            for name in runs
+        ],
         *[
             Job(f"`iris` × {n}, empty cache, first step", script(FIRST, "iris", with_quadrotors(n)), alone=True)
             for n in NUMBERS

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from tandemlift.apps.export.registration import register_environments
     from tandemlift.apps.live.notebook_page import page
     from tandemlift.apps.teaching.grading import grade
+    from tandemlift.codegen.known_flights import fly
     from tandemlift.codegen.mission_module import compile_mission
     from tandemlift.core.errors import FlightWarning, InputError
     from tandemlift.flight.record import Flight
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
     from tandemlift.parts.mechanics.vehicle import Vehicle
     from tandemlift.pictures.figures.registry import plot
     from tandemlift.pictures.report.study.certificate_report import certify
-    from tandemlift.simulation.fly import fly, fly_many
+    from tandemlift.simulation.fly import fly_many
     from tandemlift.simulation.pilot_api import Pilot
     from tandemlift.simulation.simulation import Simulation
 
@@ -58,7 +59,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "compile_mission": "codegen.mission_module",
     "excite": "analysis.identification.excitation_design",
     "feel": "analysis.studies.feel",
-    "fly": "simulation.fly",
+    "fly": "codegen.known_flights",
     "fly_many": "simulation.fly",
     "grade": "apps.teaching.grading",
     "identify": "analysis.identification.identify",

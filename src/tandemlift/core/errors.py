@@ -18,7 +18,13 @@ class InputError(ValueError):
 
 
 class FlightWarning(UserWarning):
-    """Warns of a mission that can be flown but is expected to fly badly, with the numbers."""
+    """Warns of a mission that can be flown but is expected to fly badly, with the numbers; `count`: those so far."""
+
+    count = 0
+
+    def __init__(self, *said: object) -> None:
+        super().__init__(*said)
+        FlightWarning.count += 1
 
 
 @contextmanager

@@ -5,15 +5,15 @@ The memory for reading TOML grows with the square of the number of a key's parts
 
 from __future__ import annotations
 
+import os
 import re
-import secrets
 import shutil
+import time
 import tomllib
-import zipfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import cache
-from importlib import metadata
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +21,7 @@ from tandemlift.core.errors import InputError
 
 __version__ = "1.0.0"
 DATA = Path(__file__).resolve().parents[1] / "data"  # missions, pages, templates: everything but Python
+LOADED = time.time_ns()  # when this process began to load the package
 FLIGHT_FILE = "flight.npz"  # in the folder of a run
 
 
@@ -28,16 +29,12 @@ FLIGHT_FILE = "flight.npz"  # in the folder of a run
 def versions(engine: str) -> Mapping[str, str]:
     """Versions of the packages that a flight in an engine uses."""
     packages = ("llvmlite", "numpy", *(["mujoco"] if engine == "mujoco" else []))
-    return {"tandemlift": __version__, **{name: metadata.version(name) for name in packages}}
+    return {"tandemlift": __version__, **{name: import_module(name).__version__ for name in packages}}
 
 
 @contextmanager
 def atomic_write(path: Path) -> Iterator[Path]:
-    """A temporary path to write to, renamed to `path` at the end; if writing fails, `path` stays as it was.
-
-    Raises:
-        OSError: writing failed; it names `path`.
-    """
+    """A temporary path to write to, renamed to `path` at the end; if that fails, `path` stays, and OSError names it."""
     with aside(path, path) as partial:
         path.parent.mkdir(parents=True, exist_ok=True)
         yield partial
@@ -47,7 +44,7 @@ def atomic_write(path: Path) -> Iterator[Path]:
 @contextmanager
 def aside(path: Path, beside: Path) -> Iterator[Path]:
     """A temporary path that stands for another one; random, because machines that share a folder share numbers."""
-    partial = beside.with_name(f".{beside.name}.{secrets.token_hex(6)}.partial")
+    partial = beside.with_name(f".{beside.name}.{os.urandom(6).hex()}.partial")
     try:
         yield partial
     except OSError as error:  # that of a full disk has no name, others have the temporary one
@@ -71,7 +68,7 @@ def check_own(path: Path, mark: str) -> None:
         raise InputError(f"{path}: tandemlift did not write it, so it stays: give another folder, or move it")
 
 
-def unpacked_size(archive: zipfile.ZipFile) -> int:
+def unpacked_size(archive: Any) -> int:
     """Unpacked size of all files of an archive [bytes], by its directory; no more than that is ever read."""
     return sum(file.file_size for file in archive.infolist())
 

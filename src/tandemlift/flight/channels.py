@@ -11,7 +11,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tandemlift.core.phases import PHASE_NUMBERS, REASON_NUMBERS
-from tandemlift.parts.sensors.vehicle_sensors import ADDITIONAL
 
 
 class Channel(NamedTuple):
@@ -256,9 +255,14 @@ DERIVED: dict[str, tuple[str, str, Channel]] = {
 
 def channel_of(name: str) -> Channel:
     """The description of the channel of that name; for an additional sensor, that of the sensor."""
+    known = CHANNELS.get(name) or LOGGED.get(name, TIME if name == "time" else OTHER)
+    if known is not OTHER or not (name.startswith("measured_") or name.endswith("_stamp")):
+        return known
+    from tandemlift.parts.sensors.vehicle_sensors import ADDITIONAL  # with all sensors, which load the laws
+
     sensor = ADDITIONAL.get(name.removeprefix("measured_").removesuffix("_stamp"))
-    if name in CHANNELS or sensor is None:
-        return CHANNELS.get(name, LOGGED.get(name, TIME if name == "time" else OTHER))
+    if sensor is None:
+        return OTHER
     if name.endswith("_stamp"):
         return Channel("s", "", f"time at which the sensor {sensor.name!r} took its reading", 1)
     return Channel(sensor.unit, sensor.frame, f"reading of the sensor {sensor.name!r}: {sensor.meaning}", sensor.width)

@@ -66,10 +66,19 @@ def notes(flight: Flight) -> Iterator[str]:
 def _thrusts_and_limits(flight: Flight, model: str) -> tuple[Array, Array]:
     """The logged thrusts (T, R) and largest ones (R) [N] of rotors of a model; no samples, if the flight has others."""
     if "rotor_thrusts" in flight and "vehicle" in flight.mission and flight.mission["actuators"]["model"] == model:
-        thrusts, most = flight["rotor_thrusts"], np.repeat([q.thrust_limit for q in flight.vehicle.quadrotors], 4)
+        thrusts, most = flight["rotor_thrusts"], np.repeat(list(_thrust_limits(flight)), 4)
         if thrusts.shape[-1] == len(most) and np.isfinite(thrusts).any():
             return thrusts, most
     return np.empty((0, 1)), np.ones(1)
+
+
+def _thrust_limits(flight: Flight) -> Iterator[float]:
+    """The largest thrust of a rotor of each quadrotor [N], as of its table in the mission."""
+    tables = flight.mission["vehicle"].get("quadrotors", [{}])
+    if all({"thrust_constant", "max_speed"} <= table.keys() for table in tables):  # resolved: needs no table's class
+        yield from (table["thrust_constant"] * table["max_speed"] ** 2 for table in tables)
+    else:
+        yield from (q.thrust_limit for q in flight.vehicle.quadrotors)
 
 
 def _largest_thrust(flight: Flight) -> str:

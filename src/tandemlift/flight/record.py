@@ -18,22 +18,18 @@ from tandemlift.core.files import FLIGHT_FILE, atomic_write, unpacked_size
 from tandemlift.core.findings import Finding, finding_from
 from tandemlift.core.phases import FAILURES, INTERRUPTED
 from tandemlift.core.types import Array
-from tandemlift.core.vector import Quat, Vec3, apply_transposed
 from tandemlift.flight.channels import CHANNELS, DERIVED, OTHER, STAMP, Channel, channel_of
 from tandemlift.flight.data_frames import to_pandas, to_xarray
 from tandemlift.flight.reading_stamps import reading_stamps
-from tandemlift.parts.contact.corridor import wall_tables
-from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.mechanics.vehicle import Vehicle
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # what few readers of a flight need, they load
     import pandas
     import xarray
 
-FORMAT = 2
-LATE = 10.0
-"""Time [s] from which metrics with `after_10s` in their names are computed, to exclude a disturbed start."""
+    from tandemlift.parts.mechanics.vehicle import Vehicle
 
+FORMAT = 2
+LATE = 10.0  # s, from which metrics with `after_10s` in their names are computed, to exclude a disturbed start
 
 ENDING_TEXT = "{outcome} at {time:.6g} s: {quantity} = {value:.6g}, {limit}"
 CAUSE_TEXT = "{outcome} at {time:.6g} s: {cause}"
@@ -100,11 +96,15 @@ class Flight(Mapping[str, Array]):
     @property
     def vehicle(self) -> Vehicle:
         """The mission's vehicle, as the pilot assumes it."""
+        from tandemlift.parts.mechanics.vehicle import Vehicle
+
         return Vehicle.from_mission(self.mission)
 
     @property
     def walls(self) -> list[dict[str, Any]]:
         """The mission's walls as tables: those of `walls`, then the corridor's."""
+        from tandemlift.parts.contact.corridor import wall_tables
+
         return wall_tables(self.mission)
 
     @property
@@ -265,6 +265,9 @@ def _check_names(header: dict[str, Any]) -> None:
 
 def moment_of(place: Array, attitude: Array, force: Array) -> Array:
     """Moments [N·m, body axes] (T, 3) of forces [N, world axes] (T, 3) at a place [m, body axes] (3)."""
+    from tandemlift.core.vector import Quat, Vec3, apply_transposed
+    from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+
     turned = rotation_from_quaternion(Quat(*attitude.T))
     return np.cross(place, np.stack(apply_transposed(turned, Vec3(*force.T)), axis=1))
 
@@ -283,7 +286,7 @@ def _flight(header: dict[str, Any], arrays: dict[str, Array]) -> Flight:
     findings = tuple(finding_from(table) for table in header.get("findings", ()))
     moment = "push_moment_estimate"
     if "payload" in header["channels"].get(moment, {}).get("meaning", ""):  # about that centre, in version 1.0
-        center, push = Vehicle.from_mission(mission).payload_center, arrays["push_estimate"]
+        center, push = Flight(time, {}, mission, {}).vehicle.payload_center, arrays["push_estimate"]
         arrays[moment] = arrays[moment] + moment_of(center, arrays["estimated_attitude"], push)
     known = "sensors" in mission and np.isfinite(time).all()
     if known and not STAMP.keys() & arrays.keys():  # a record of version 1.0

@@ -86,31 +86,26 @@ def _fly_compiled(
 
 
 def fly(mission: MissionLike, engine: str | None = None, *, progress: Progress | None = None) -> Flight:
-    """Fly a mission.
+    """Fly a mission that is prepared anew; otherwise as `codegen.known_flights.fly`, which is `tl.fly`."""
+    return fly_plan(plan_of(mission, engine), progress)[0]
 
-    Args:
-        mission: from `load_mission`, or its name or path.
-        engine: name of the engine; if None, that of the mission's recording, or "compiled".
-        progress: called from time to time with (steps flown, steps in all); by default, a notebook shows a bar.
 
-    Returns:
-        The flight. If it crashed or diverged, or its engine was lost, it holds the samples until then, and `ending`
-        has the reason.
-
-    Raises:
-        OSError: the engine in another process took no step at all.
-        InputError: the engine is unknown, or the mission cannot be loaded or built.
-    """
+def plan_of(mission: MissionLike, engine: str | None = None) -> FlightPlan:
+    """The plan of a mission in an engine; arguments as for `fly`."""
     mission = mission_of(mission)
-    engine = engine_of(mission.person.recording) if engine is None else engine
-    p = FlightPlan(mission, engine)
+    return FlightPlan(mission, engine_of(mission.person.recording) if engine is None else engine)
+
+
+def fly_plan(p: FlightPlan, progress: Progress | None = None) -> tuple[Flight, RawResult]:
+    """The flight of a plan, and what it was made from; `progress` as for `fly`."""
     rows, body = p.steps // p.every + 1, body_of(p)
     machine = machine_of(body)
-    with progress_or_own(mission.mission.name, progress, "steps") as shown:
+    with progress_or_own(p.mission.mission.name, progress, "steps") as shown:
         if p.stepwise or (body is not None and machine is None):
-            return flight_of(p, fly_stepwise(p, rows, p.every, shown, body), engine)
-        (flown,) = _fly_compiled([p], rows, p.every, shown, machine=machine)
-    return flight_of(p, flown, engine)
+            flown = fly_stepwise(p, rows, p.every, shown, body)
+        else:
+            (flown,) = _fly_compiled([p], rows, p.every, shown, machine=machine)
+    return flight_of(p, flown, p.engine), flown
 
 
 def fly_many(

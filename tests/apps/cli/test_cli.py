@@ -188,7 +188,7 @@ def test_a_folder_that_cannot_take_the_results_is_refused_before_the_flight(out,
     (tmp_path / "taken" / "metrics.json").mkdir(parents=True)
     (tmp_path / "drawn").mkdir()
     (tmp_path / "drawn" / "figures").write_text("mine")
-    monkeypatch.setattr("tandemlift.simulation.fly.fly", lambda *_, **__: pytest.fail("flown"))
+    monkeypatch.setattr("tandemlift.simulation.fly.fly_plan", lambda *_, **__: pytest.fail("flown"))
     message = check_refused(run("run", "hover", "--out", out))
     assert [piece for piece in pieces if piece not in message] == []
     assert (tmp_path / "file").read_text() == "mine"

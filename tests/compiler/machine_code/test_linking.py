@@ -11,7 +11,7 @@ from tandemlift.simulation.plan import FlightPlan
 from tandemlift.compiler.machine_code import machine
 
 loop_code = FlightPlan(tl.load_mission("hover", {"mission.duration": 0.1})).loop_code
-text = loop_code._written("loop", 1).text
+text = loop_code.written("loop", 1).text
 code, names = machine.compiled(text, machine.QUICK), re.findall(r"define i64 @(\\w+)\\(", text)
 RESERVED_ONLY = 0x4000  # MAP_NORESERVE of Linux
 LAZY, kept = mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS | RESERVED_ONLY, []

@@ -267,7 +267,7 @@ def test_the_figure_of_tracking_marks_the_times_at_which_findings_begin(paper, d
 
 
 def test_a_failure_leaves_no_half_file_and_the_old_one_as_it_was(drawn, tmp_path, monkeypatch):
-    target = tmp_path / "reference.png"
+    target = tmp_path / "reference.pdf"
     target.write_bytes(b"old")
     figure = drawn["reference"]
 
@@ -278,4 +278,4 @@ def test_a_failure_leaves_no_half_file_and_the_old_one_as_it_was(drawn, tmp_path
     monkeypatch.setattr(figure, "savefig", fail)
     with pytest.raises(OSError, match="disk full"):
         figure_style.save(figure, target)
-    assert [(p.name, p.read_bytes()) for p in tmp_path.iterdir()] == [("reference.png", b"old")]
+    assert [(p.name, p.read_bytes()) for p in tmp_path.iterdir()] == [("reference.pdf", b"old")]

@@ -16,8 +16,8 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.drawing.figure import IEEE
 from tandemlift.pictures.drawing.scene import NEAR, Scene3D, on_paper
 from tandemlift.pictures.drawing.style import COMPONENTS, LIGHT_BLUE, PALE
-from tandemlift.pictures.drawing.surroundings import clearance, draw_walls, floor_height
-from tandemlift.pictures.drawing.vehicle import true_payload_mass
+from tandemlift.pictures.drawing.surroundings import clearance, draw_walls
+from tandemlift.pictures.drawing.vehicle import floor_height, true_payload_mass
 from tandemlift.pictures.figures.registry import figures, figures_for
 
 WIND = {"wind.model": "air", "wind.velocity": [2.0, 1.0, 0.0], "wind.turbulence": 6.0}

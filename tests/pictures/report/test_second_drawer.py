@@ -1,25 +1,25 @@
 """Figures that two processes draw are those that one draws, also when the second process fails."""
 
-import shutil
-import time
+import os
+import threading
 
 import pytest
 
 import tandemlift as tl
 from tandemlift.pictures.figures import registry
 from tandemlift.pictures.report import second_drawer as drawing
-from tandemlift.pictures.report.second_drawer import SecondDrawer, second_drawer
+from tandemlift.pictures.report.second_drawer import can_fork, draw_by_two
+
+needs_fork = pytest.mark.skipif(not can_fork(), reason="draws by one process: no Linux, one processor, or a thread")
 
 
 @pytest.fixture(autouse=True, scope="module")
 def two_figures():
-    """A flight has two figures, and is worth a second process, which has a processor."""
+    """A flight has two figures."""
     every = registry.figures_for
     with pytest.MonkeyPatch.context() as patch:
         for module in (registry, drawing):
             patch.setattr(module, "figures_for", lambda flight: dict(list(every(flight).items())[:2]))
-        patch.setattr(drawing, "WORTH", 2)
-        patch.setattr(drawing.os, "cpu_count", lambda: 2)
         yield
 
 
@@ -31,30 +31,72 @@ def flight():
 @pytest.fixture(scope="module")
 def alone(flight, tmp_path_factory):
     """The files that the first process writes if there is no second one."""
-    return drawn(SecondDrawer(), flight, "none.npz", tmp_path_factory.mktemp("alone"))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(drawing, "can_fork", lambda: False)
+        return drawn(flight, tmp_path_factory.mktemp("alone"))
 
 
-def drawn(drawer, flight, file, folder):
+def drawn(flight, folder):
     told = []
-    drawer.save_figures(flight, file, folder, lambda done, total: told.append((done, total)))
+    draw_by_two(flight, folder, lambda done, total: told.append((done, total)))
     assert sorted(told) == [(done, 2) for done in range(3)]
     return {file.name: file.read_bytes() for file in folder.iterdir()}
 
 
-def test_two_processes_write_the_bytes_of_one(flight, alone, tmp_path, monkeypatch):
-    monkeypatch.setattr(drawing, "_draw_each", lambda *_: None)  # so the second process draws all
-    flight.save(tmp_path / "flight.npz")
-    with second_drawer() as drawer:
-        assert drawn(drawer, flight, tmp_path / "flight.npz", tmp_path / "figures") == alone
+@needs_fork
+@pytest.mark.parametrize("count", [0, 1])
+def test_two_processes_write_the_bytes_of_one(count, flight, alone, tmp_path, monkeypatch):
+    first, one = os.getpid(), drawing.save_flight_figure
+    by_first = []
+
+    def save(flight, name, folder):
+        """The first process draws so many figures, and waits for the second one to draw the others."""
+        if os.getpid() == first:
+            by_first.append(name)
+        return one(flight, name, folder)
+
+    each = drawing._draw_each
+
+    def draw_each(*given):
+        if os.getpid() != first or count:
+            each(*given)
+
+    monkeypatch.setattr(drawing, "save_flight_figure", save)
+    monkeypatch.setattr(drawing, "_draw_each", draw_each)
+    assert drawn(flight, tmp_path / "figures") == alone
+    assert len(by_first) <= 2 * count
 
 
-def test_figures_that_the_second_process_cannot_draw_are_drawn_by_the_first(flight, alone, tmp_path):
-    with second_drawer() as drawer:  # the file does not exist: the process ends
-        assert drawn(drawer, flight, tmp_path / "none.npz", tmp_path / "figures") == alone
+@needs_fork
+def test_figures_that_the_second_process_cannot_draw_are_drawn_by_the_first(flight, alone, tmp_path, monkeypatch):
+    first, one = os.getpid(), drawing.save_flight_figure
+    save = lambda *given: one(*given) if os.getpid() == first else os._exit(1)  # noqa: E731
+    monkeypatch.setattr(drawing, "save_flight_figure", save)
+    assert drawn(flight, tmp_path / "figures") == alone
 
 
-def test_a_process_that_does_not_start_leaves_all_to_the_first(flight, alone, tmp_path, monkeypatch):
-    monkeypatch.setattr(drawing.sys, "executable", shutil.which("false"))
-    with second_drawer() as drawer:
-        time.sleep(0.2)  # so that it has ended when it is asked
-        assert drawn(drawer, flight, tmp_path / "none.npz", tmp_path / "figures") == alone
+@needs_fork
+def test_an_error_of_the_first_process_ends_the_second_one(flight, tmp_path, monkeypatch):
+    first = os.getpid()
+
+    def save(*_):
+        if os.getpid() == first:
+            raise OSError("full")
+        threading.Event().wait()
+
+    monkeypatch.setattr(drawing, "save_flight_figure", save)
+    with pytest.raises(OSError, match="full"):
+        draw_by_two(flight, tmp_path)
+    with pytest.raises(ChildProcessError):
+        os.waitpid(-1, os.WNOHANG)
+
+
+def test_beside_a_thread_that_works_one_process_draws():
+    ended = threading.Event()
+    thread = threading.Thread(target=ended.wait)
+    thread.start()
+    try:
+        assert not can_fork()
+    finally:
+        ended.set()
+        thread.join()

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
-import signal
 import sys
-import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
@@ -22,7 +20,6 @@ if TYPE_CHECKING:
 
 COLOURS = {CLOSE: "yellow", FAILS: "red", REFUSED: "red"}  # of the verdicts of checks
 CLOSEST = 3  # checks that are named above the table
-AGAIN = 0.02  # s, until an interrupt that Python has swallowed is raised again
 
 
 def echo(*lines: str, nl: bool = True) -> None:
@@ -79,18 +76,3 @@ def exit_now(status: int) -> None:
     if util := sys.modules.get("multiprocessing.util"):
         util._run_finalizers()  # frees the semaphores of worker processes
     os._exit(status)
-
-
-def handle_interrupts() -> None:
-    """Raise a Ctrl-C again that Python has swallowed because it came while an object was finalised."""
-    previous = sys.unraisablehook
-
-    def hook(what: sys.UnraisableHookArgs) -> None:
-        if issubclass(what.exc_type, KeyboardInterrupt):
-            again = threading.Timer(AGAIN, signal.raise_signal, [signal.SIGINT])
-            again.daemon = True
-            again.start()
-        else:
-            previous(what)
-
-    sys.unraisablehook = hook

@@ -18,6 +18,7 @@ from tandemlift.core.files import FLIGHT_FILE, parse_setting
 from tandemlift.pictures.drawing.figure import STYLES, figure_style
 
 if TYPE_CHECKING:
+    from tandemlift.codegen.known_flights import KnownFile
     from tandemlift.flight.record import Flight
     from tandemlift.missions import Mission
     from tandemlift.parts.controllers import Controller
@@ -117,16 +118,19 @@ def load(mission: str, settings: tuple[str, ...], controller: Controller | str |
 # the files of a flight
 
 
-def write_flight(flight: Flight, folder: Path, *, figures: bool) -> None:
-    """Write the files of a flight into the folder, and say where its figures are drawn, with a progress bar."""
-    from tandemlift.apps.live.replay import report_replay
-    from tandemlift.pictures.report.flight_report import write_flight_files
+def write_flight(flight: Flight, folder: Path, *, figures: bool, file: KnownFile | None = None) -> None:
+    """Write the files of a flight, of a mission's file, into the folder, and say where its figures are drawn."""
+    from tandemlift.pictures.report.flight_report import mission_facts, write_flight_files
 
-    replay = report_replay(flight) if figures else None
+    replay = None
     if figures:
+        from tandemlift.apps.live.replay import report_replay
+
+        replay = report_replay(flight)
         echo(f"  drawing: {folder / FIGURES}")
+    facts = file.facts("report", lambda: mission_facts(flight)) if file else None
     with progress_bar("Drawing", "figures", shown=figures and sys.stderr.isatty()) as progress:
-        write_flight_files(flight, folder, figures=figures, progress=progress, replay=replay)
+        write_flight_files(flight, folder, figures=figures, progress=progress, replay=replay, facts=facts)
 
 
 def exit_if_amiss(flights: Mapping[str, Flight], *, strict: bool) -> None:

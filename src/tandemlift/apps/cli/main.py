@@ -8,7 +8,7 @@ import warnings
 
 import click
 
-from tandemlift.apps.cli.console import compile_notices, exit_now, handle_interrupts
+from tandemlift.apps.cli.console import compile_notices, exit_now
 from tandemlift.apps.cli.export import compile, export, render
 from tandemlift.apps.cli.flying import INTERRUPTED
 from tandemlift.apps.cli.identify import identify, shadow
@@ -100,7 +100,6 @@ def main() -> None:
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C: child processes are ended too
     if hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(errors="replace")  # a terminal that lacks a character shows '?'
-    handle_interrupts()
     try:
         with watching(compile_notices):
             sys.exit(cli.main(prog_name="tandemlift", standalone_mode=False))

@@ -16,6 +16,7 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.files import write_file
 
 if TYPE_CHECKING:
+    from tandemlift.codegen.known_flights import KnownFile
     from tandemlift.flight.record import Flight
     from tandemlift.missions import Mission
     from tandemlift.parts.controllers import Controller
@@ -75,16 +76,24 @@ def run(
 
     Exit code 3: crashed, diverged, interrupted or not lifted; what was flown is written. With --strict, also findings.
     """
-    from tandemlift.engines.registry import engine_named
+    from tandemlift.codegen.known_flights import KnownFile
 
-    began = time.perf_counter()
-    chosen = None if controller is None else flying.chosen_controller(controller)
-    if engine is not None:
-        engine_named(engine)
-    loaded, own, name = _selected(mission, study, row, flying.with_after_crash(settings, after_crash), chosen)
-    with results_folder(out, Path("out") / name, flying.FILES, mission) as folder:
-        flight = fly_mission(loaded, engine or own)
-        write_results(flight, folder, began, loaded.person.recording, figures=not no_figures)
+    began, settings = time.perf_counter(), flying.with_after_crash(settings, after_crash)
+    named = study is None and row is None and controller is None and engine in (None, "compiled")
+    file = KnownFile(mission, dict(map(flying.parse_setting, settings))) if mission and named else None
+    known = file.flight() if file else None
+    recording = None  # a known flight has none
+    if known is None:
+        from tandemlift.engines.registry import engine_named
+
+        chosen = None if controller is None else flying.chosen_controller(controller)
+        if engine is not None:
+            engine_named(engine)
+        loaded, own, name = _selected(mission, study, row, settings, chosen)
+        recording = loaded.person.recording
+    with results_folder(out, Path("out") / (known.name if known else name), flying.FILES, mission) as folder:
+        flight = known.fly() if known else fly_mission(loaded, engine or own, file)
+        write_results(flight, folder, began, recording, figures=not no_figures, file=file)
     flying.exit_if_amiss({flight.name: flight}, strict=strict)
 
 
@@ -112,31 +121,37 @@ def _selected(
     return mission_of_row(Path(study), row, dict(map(flying.parse_setting, settings)))
 
 
-def fly_mission(mission: Mission, engine: str | None) -> Flight:
-    """Fly a mission, with a progress bar; the error of a user's own controller names its line."""
+def fly_mission(mission: Mission, engine: str | None, file: KnownFile | None = None) -> Flight:
+    """Fly a mission, which may stand in a file, with a progress bar; an error of a user's controller names its line."""
     from tandemlift.parts.controllers.registry import explained
-    from tandemlift.simulation.fly import fly
-    from tandemlift.simulation.plan import FlightPlan
+    from tandemlift.simulation.fly import fly_plan, plan_of
 
     try:
-        with progress_bar("Flying", "steps", shown=FlightPlan(mission).takes_long) as progress:
-            return fly(mission, engine, progress=progress)
+        p = plan_of(mission, engine)
+        with progress_bar("Flying", "steps", shown=p.takes_long) as progress:
+            flight, flown = fly_plan(p, progress)
     except Exception as error:
         if (told := explained(error, mission.controller.name)) is error:
             raise
         raise told from error
+    if file:
+        file.remember(p, flight, flown)
+    return flight
 
 
-def write_results(flight: Flight, folder: Path, began: float, recording: str | None, *, figures: bool) -> None:
+def write_results(
+    flight: Flight, folder: Path, began: float, recording: str | None, *, figures: bool, file: KnownFile | None = None
+) -> None:
     """Print the summary of a flight, write its files, and print the time since `began` [s], by `time.perf_counter`.
 
-    A recording that the mission flies, given by its path, is among the files.
+    A recording that the mission flies, given by its path, is among the files. `file`: in which the mission stands.
     """
     from tandemlift.flight.printed_summary import summary_lines
-    from tandemlift.missions.recording import recording_bytes
 
     echo(*summary_lines(flight))
     if recording is not None:  # so that the folder can be flown anywhere
+        from tandemlift.missions.recording import recording_bytes
+
         write_file(folder / Path(recording).name, recording_bytes(recording))
-    flying.write_flight(flight, folder, figures=figures)
+    flying.write_flight(flight, folder, figures=figures, file=file)
     echo(f"  report: {folder / 'report.html'} ({time.perf_counter() - began:.2f} s in all)")

@@ -14,16 +14,17 @@ from __future__ import annotations
 import contextlib
 import functools
 import hashlib
+import importlib.util
 import json
 import os
 import stat
 import sys
 import tempfile
 from collections.abc import Iterable, Mapping
-from importlib import metadata
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from tandemlift.core.files import DATA, LOADED
 from tandemlift.core.law import replaced
 from tandemlift.core.types import is_value
 
@@ -34,6 +35,11 @@ CHECKSUM = 32  # bytes
 PACKAGE = Path(__file__).resolve().parents[2]
 FOLDERS = ("core", "parts", "compiler", "engines", "simulation/preparation", "simulation/loop")
 FILES = ("simulation/pilot_api",)
+
+ROOMS = ("core", "parts", "compiler", "engines", "simulation", "missions", "flight", "codegen", "pictures/report")
+MATHEMATICS = ("OPENBLAS", "OMP_", "MKL_", "BLIS_", "NPY_")  # beginnings of variables that may change its last bits
+MISSIONS = DATA / "missions"
+MARGIN = 2 * 10**7  # ns, by which the clock of files may be late
 
 
 class StoredCode(NamedTuple):
@@ -171,9 +177,11 @@ def described(value: Any) -> str:
 
 def key_of_module(text: str, about: Mapping[str, Any]) -> str:
     """The key of a module as text, with the data that its callers need."""
+    import llvmlite
+
     from tandemlift.compiler.machine_code.machine import processor
 
-    facts = metadata.version("llvmlite"), processor(), json.dumps(about, sort_keys=True)
+    facts = llvmlite.__version__, processor(), json.dumps(about, sort_keys=True)
     return hashlib.sha256(f"{facts} {text}".encode()).hexdigest()[:32]
 
 
@@ -189,13 +197,68 @@ def key_of(value: Any, *more: Any, files: Iterable[Path] = ()) -> str:
         The key. It is empty if a class, or the law that is registered for it, is not of this package: a user's law may
         read numbers from any file, so only the module that is traced from it tells whether code on disk is its own.
     """
+    import llvmlite
+
     from tandemlift.compiler.machine_code.machine import processor
 
     own, others = classes(value), {kind for kind, _ in replaced()}
     if own & others or not all(c.__module__.startswith("tandemlift.") for c in own):
         return ""
-    versions = sys.version_info[:2], metadata.version("llvmlite"), processor()
+    versions = sys.version_info[:2], llvmlite.__version__, processor()
     digest = hashlib.sha256(f"{versions} {described(value)} {more}".encode())
     for path in sorted([*files, *(PACKAGE / "compiler").rglob("*.py")]) if files else sources():
         digest.update(path.name.encode() + b"\0" + content(path) + b"\0")
     return digest.hexdigest()[:32]
+
+
+# ---- What a known flight follows from beside its mission
+
+
+def hash_of_sources() -> str:
+    """A hash of what a flight follows from beside its mission; "" if a source may have changed since the start."""
+    import llvmlite
+    import numpy as np
+
+    from tandemlift.compiler.machine_code.machine import processor
+
+    pydantic = importlib.util.find_spec("pydantic")
+    checks = Path(pydantic.origin).with_name("version.py") if pydantic and pydantic.origin else None
+    if checks is None:
+        return ""
+    rooms = [entry for room in ROOMS for entry in os.walk(PACKAGE / room)]
+    files = [os.path.join(folder, name) for folder, _, names in rooms for name in names if name.endswith(".py")]
+    files += [str(checks), *map(str, MISSIONS.glob("*.toml"))]
+    if not are_older(files, LOADED):
+        return ""
+    arithmetic = sorted(item for item in os.environ.items() if item[0].startswith(MATHEMATICS))
+    facts = sys.version, np.__version__, llvmlite.__version__, processor(), arithmetic
+    return hash_of(facts, _hash_of_all(tuple(sorted(files))))
+
+
+@functools.cache
+def _hash_of_all(files: tuple[str, ...]) -> str:
+    """A hash of the paths and contents of files that did not change since the start, and so are read once."""
+    digest = hashlib.sha256()
+    for file in files:
+        with open(file, "rb", buffering=0) as opened:
+            digest.update(f"\0{file}\0".encode() + opened.read())
+    return digest.hexdigest()
+
+
+def are_older(files: Iterable[str], than: int) -> bool:
+    """Whether files are there, and none has changed since a time [ns]."""
+    with contextlib.suppress(OSError):
+        return all(os.stat(file).st_ctime_ns < than - MARGIN for file in files)
+    return False
+
+
+def hash_of(*values: object) -> str:
+    """A hash of plain values, which their text tells apart."""
+    return hashlib.sha256(repr(values).encode()).hexdigest()[:32]
+
+
+def hash_of_file(path: str) -> str:
+    """A hash of a file's content; "" if it cannot be read."""
+    with contextlib.suppress(OSError):
+        return hashlib.sha256(Path(path).read_bytes()).hexdigest()
+    return ""

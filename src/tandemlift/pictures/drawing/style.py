@@ -7,8 +7,11 @@ colours, so that one drawing serves all palettes.
 
 from __future__ import annotations
 
-import io
-from collections.abc import Callable
+import struct
+import zlib
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext
+from contextvars import ContextVar
 from functools import wraps
 from pathlib import Path
 from typing import Any, Literal, ParamSpec
@@ -16,9 +19,14 @@ from typing import Any, Literal, ParamSpec
 import matplotlib.style
 import numpy as np
 from cycler import cycler
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.backend_bases import RendererBase
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import LayoutEngine, PlaceHolderLayoutEngine
+from matplotlib.transforms import Bbox, ScaledTranslation, Transform
+from numpy.typing import NDArray
 
 from tandemlift.core.files import atomic_write
 from tandemlift.flight.record import Flight
@@ -60,6 +68,8 @@ BEHIND_TEXT: dict[str, Any] = {"facecolor": PAPER, "alpha": 0.75, "lw": 0.0, "pa
 DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)))
 COLOURS = (BLUE, VERMILLION, GREEN, INK, ORANGE, PURPLE, SKY, GREY)  # of flights in one figure
 WIDTHS = (2.0, 1.2, 0.8)  # pt: the first flights are drawn wider, so that lines that coincide are all seen
+
+SIDES = {"left": "x0", "right": "x1", "bottom": "y0", "top": "y1"}
 
 SETTINGS: dict[str, Any] = {
     "axes.linewidth": 0.6,
@@ -107,6 +117,23 @@ def settings(style: FigureStyle) -> dict[str, Any]:
     }
 
 
+_UNDER: ContextVar[FigureStyle | None] = ContextVar("under", default=None)
+
+
+@contextmanager
+def under(style: FigureStyle) -> Iterator[None]:
+    """The settings of a style, whatever those of the machine are; the library checks some three hundred each time."""
+    if _UNDER.get() is style:
+        yield
+        return
+    before = _UNDER.set(style)
+    try:
+        with matplotlib.style.context(["default", settings(style)]):
+            yield
+    finally:
+        _UNDER.reset(before)
+
+
 def look(place: int, **own: Any) -> dict[str, Any]:
     """The look of the flight number `place` among several: eight colours, each with a dash, then the next dash."""
     dash, width = DASHES[(place + place // len(COLOURS)) % len(DASHES)], WIDTHS[min(place, len(WIDTHS) - 1)]
@@ -121,7 +148,7 @@ class StyledFigure(Figure):
     """
 
     def __init__(self, width: float, height: float, layout: Literal["constrained"] | None = "constrained") -> None:
-        self.style = current_style()
+        self.style, self._labels = current_style(), list[tuple[Axis, float, float, Transform]]()
         size = self.style.size(width, height)
         super().__init__(figsize=size, dpi=self.style.dots(size[0]), layout=layout)
 
@@ -130,16 +157,38 @@ class StyledFigure(Figure):
         engine = super().get_layout_engine()
         return None if isinstance(engine, PlaceHolderLayoutEngine) else engine
 
+    def lay_out(self) -> None:
+        """Lay it out, once for all: else every drawing would lay it out again.
+
+        The engine measures all axes twice, and their labels measure the ticks again each time they are drawn. But
+        neither margins nor the places of labels beside the axes depend on the size of the axes.
+        """
+        engine, free = self.get_layout_engine(), [axes for axes in self.axes if axes.get_aspect() == "auto"]
+        if engine is None:
+            return
+        for axes in free:
+            vars(axes)["get_tightbbox"] = _measured_once(axes, self._labels)
+        engine.execute(self)
+        self.set_layout_engine("none")
+        for axes in free:
+            del vars(axes)["get_tightbbox"]
+
+    def fix_labels(self) -> None:
+        """Fix the labels of axes where the layout put them."""
+        while self._labels:
+            axis, x, y, beside = self._labels.pop()
+            axis.set_label_coords(x, y, beside)
+
     def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, bytes], dict[str, dict[str, int]]]:
         """The figure in a notebook: with the dots of a file, as large as in print, without pyplot."""
-        picture = io.BytesIO()
-        self.savefig(picture)
+        with under(self.style):
+            picture = _png(self)
         width, height = (round(CSS_DOTS * side) for side in self.get_size_inches())
-        return {"image/png": picture.getvalue()}, {"image/png": {"width": width, "height": height}}
+        return {"image/png": picture}, {"image/png": {"width": width, "height": height}}
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw it, its colours from the style's palette."""
-        with matplotlib.rc_context(settings(self.style)):
+        with nullcontext() if _UNDER.get() is self.style else matplotlib.rc_context(settings(self.style)):
             super().draw(renderer)
 
 
@@ -163,16 +212,35 @@ def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
 
     @wraps(draw)
     def drawn(*arguments: P.args, **named: P.kwargs) -> Figure:
-        under = matplotlib.style.context(["default", settings(current_style())])
         # a flight that diverged may hold infinities, whose differences are no news
-        with under, np.errstate(invalid="ignore", over="ignore"):
+        with under(current_style()), np.errstate(invalid="ignore", over="ignore"):
             figure = draw(*arguments, **named)
-            if layout := figure.get_layout_engine():
-                layout.execute(figure)
-                figure.set_layout_engine("none")  # else every saving would lay it out again
+            if isinstance(figure, StyledFigure):
+                figure.lay_out()
         return figure
 
     return drawn
+
+
+def _measured_once(axes: Axes, labels: list[tuple[Axis, float, float, Transform]]) -> Callable[..., Bbox | None]:
+    """The bounding box of axes, whose margins are measured once; the places of its labels join the list."""
+    margins, figure = list[NDArray[np.float64]](), axes.figure
+
+    def measure(renderer: RendererBase, **how: Any) -> Bbox | None:
+        if not margins:
+            box = type(axes).get_tightbbox(axes, renderer, **how)
+            if box is None:
+                return None
+            margins.append(np.subtract(box.extents, axes.bbox.extents))
+            for axis in (axes.xaxis, axes.yaxis):
+                (x, y), side = axis.label.get_position(), axis.get_label_position()
+                away = ((y if axis is axes.xaxis else x) - getattr(axes.bbox, SIDES[side])) / figure.dpi  # in
+                end = float(side in ("right", "top"))
+                x, y, dx, dy = (x, end, 0.0, away) if axis is axes.xaxis else (end, y, away, 0.0)
+                labels.append((axis, x, y, axes.transAxes + ScaledTranslation(dx, dy, figure.dpi_scale_trans)))
+        return Bbox.from_extents(*(axes.bbox.extents + margins[0]))
+
+    return measure
 
 
 def journal(draw: Callable[[Flight], Figure]) -> Callable[[Flight], Figure]:
@@ -198,6 +266,31 @@ def save(figure: Figure, path: Path) -> Path:
     kind = path.suffix[1:]
     style = figure.style if isinstance(figure, StyledFigure) else current_style()
     date = {"CreationDate": None} if kind == "pdf" else None
-    with atomic_write(path) as partial, matplotlib.style.context(["default", settings(style)]):
+    with atomic_write(path) as partial, under(style):
+        if isinstance(figure, StyledFigure):
+            figure.fix_labels()
+            if kind == "png":
+                partial.write_bytes(_png(figure))
+                return path
         figure.savefig(partial, format=kind, dpi=style.dots(figure.get_figwidth()), metadata=date)
     return path
+
+
+def _png(figure: StyledFigure) -> bytes:
+    """A figure as PNG: rows as they are, since most of them are paper; the filters of the library's cost the more."""
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    rows, columns = (dots := np.asarray(canvas.buffer_rgba())).shape[:2]
+    lines = np.zeros((rows, 1 + 3 * columns), np.uint8)  # each begins with the number of its filter, 0 for none
+    lines[:, 1:] = dots[:, :, :3].reshape(rows, -1)
+    metre = round(figure.dpi / 0.0254)  # dots in one
+    parts = (
+        (b"IHDR", struct.pack(">IIBBBBB", columns, rows, 8, 2, 0, 0, 0)),
+        (b"pHYs", struct.pack(">IIB", metre, metre, 1)),
+        (b"IDAT", zlib.compress(lines.tobytes(), 3)),
+        (b"IEND", b""),
+    )
+    chunks = (
+        struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data)) for name, data in parts
+    )
+    return b"\x89PNG\r\n\x1a\n" + b"".join(chunks)

@@ -12,7 +12,6 @@ from matplotlib.collections import LineCollection
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
 from tandemlift.parts.contact.corridor import WallTable
-from tandemlift.parts.contact.standing import GroundTable, floor_under
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.drawing.scene import NEAR, Scene3D, on_paper
 from tandemlift.pictures.drawing.style import EDGE, GLASS
@@ -95,19 +94,6 @@ def draw_walls(scene: Scene3D, tables: Sequence[Mapping[str, Any]], path: Array)
 
 
 # ---- The floor
-
-
-def floor_height(flight: Flight) -> float | None:
-    """Height z of the floor [m], or None where there is none.
-
-    A mission that does not give it means the height at which the vehicle stands on it at the start.
-    """
-    ground = GroundTable.model_validate(flight.mission.get("ground", {}))
-    if ground.model == "none" or ground.height is not None:
-        return ground.height if ground.model != "none" else None
-    vehicle, mission = Vehicle.from_mission(flight.mission), flight.mission
-    scale, start = mission.get("plant", {}).get("mass_scale", 1.0), mission["initial"]["position"][2]
-    return floor_under(vehicle, ground, scale, mission["mission"]["step"], start).height
 
 
 def clearance(flight: Flight, height: float) -> Array:

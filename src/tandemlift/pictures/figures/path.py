@@ -36,8 +36,8 @@ from tandemlift.pictures.drawing.style import (
     points,
     styled,
 )
-from tandemlift.pictures.drawing.surroundings import WallOutline, draw_walls, floor_height, walls_near
-from tandemlift.pictures.drawing.vehicle import Skeleton, body_to_world, skeleton
+from tandemlift.pictures.drawing.surroundings import WallOutline, draw_walls, walls_near
+from tandemlift.pictures.drawing.vehicle import Skeleton, body_to_world, floor_height, skeleton
 
 CAPTION = Caption(
     "Path",

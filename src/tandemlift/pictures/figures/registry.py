@@ -15,7 +15,7 @@ from tandemlift.core.errors import InputError, suggestion, unknown
 from tandemlift.core.types import Progress
 from tandemlift.flight.channels import CHANNELS
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.drawing.figure import figure_style
+from tandemlift.pictures.drawing.figure import current_style, figure_style
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -104,8 +104,11 @@ def save_figure(figure: Figure, path: Path) -> Path:
 
 def save_flight_figure(flight: Flight, name: str, folder: Path) -> list[Path]:
     """Draw a figure that a flight has and write it atomically as NAME.png and NAME.pdf."""
-    page = figures()[name].draw(flight)
-    return [save_figure(page, folder / f"{name}.{kind}") for kind in ("png", "pdf")]
+    from tandemlift.pictures.drawing.style import under
+
+    with under(current_style()):
+        page = figures()[name].draw(flight)
+        return [save_figure(page, folder / f"{name}.{kind}") for kind in ("png", "pdf")]
 
 
 def save_figures(

@@ -19,8 +19,8 @@ from tandemlift.pictures.drawing.figure import Caption, with_any_of
 from tandemlift.pictures.drawing.overlay import over_time
 from tandemlift.pictures.drawing.panels import components, fit, legend_above, line, scaling, shade, time_axis
 from tandemlift.pictures.drawing.style import BLUE, COMPONENTS, GREY, INK, PALE, journal, page_figure
-from tandemlift.pictures.drawing.surroundings import clearance, floor_height
-from tandemlift.pictures.drawing.vehicle import true_weight
+from tandemlift.pictures.drawing.surroundings import clearance
+from tandemlift.pictures.drawing.vehicle import floor_height, true_weight
 
 CAPTION = Caption(
     "Surroundings",

@@ -20,12 +20,19 @@ from tandemlift.core.types import Progress
 from tandemlift.flight.file_set import write_together
 from tandemlift.flight.printed_summary import notes
 from tandemlift.flight.record import Flight, counted_until
-from tandemlift.missions import built_in, format_toml, load_mission, tables_of
 from tandemlift.pictures.figures.registry import captions, figures_for
 from tandemlift.pictures.report.metric_tables import write_metric_tables
-from tandemlift.pictures.report.page import NO_BREAK, Cell, Verdict, number, shown_figure, split_unit, write_page
-from tandemlift.pictures.report.second_drawer import second_drawer
-from tandemlift.pictures.report.setup_section import setup_table
+from tandemlift.pictures.report.page import (
+    NO_BREAK,
+    Cell,
+    PageTable,
+    Verdict,
+    number,
+    shown_figure,
+    split_unit,
+    write_page,
+)
+from tandemlift.pictures.report.second_drawer import draw_by_two
 
 ARRIVED = 0.5  # m: a vehicle that ends farther from its reference has not arrived
 
@@ -87,17 +94,19 @@ def place_text(point: Iterable[float]) -> str:
 
 def _pngs(flight: Flight, figures: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]) -> dict[str, Path]:
     """The existing PNG files of a flight's figures by name."""
-    names = figures_for(flight)
-    if isinstance(figures, (str, os.PathLike)):
-        found = {name: Path(figures) / f"{name}.png" for name in names}
-    else:
-        found = {Path(p).stem: Path(p) for p in figures if Path(p).suffix == ".png"}
-    return {name: found[name] for name in names if name in found and found[name].is_file()}
+    given = Path(figures).glob("*.png") if isinstance(figures, (str, os.PathLike)) else map(Path, figures)
+    found = {path.stem: path for path in given if path.suffix == ".png" and path.is_file()}
+    # the drawing library is not loaded where nothing is drawn
+    return {name: found[name] for name in figures_for(flight) if name in found} if found else {}
 
 
-def _is_built_in(flight: Flight) -> bool:
-    """Whether a built-in mission was flown unchanged."""
-    return flight.name in built_in() and tables_of(load_mission(flight.name)) == flight.mission
+def mission_facts(flight: Flight) -> dict[str, Any]:
+    """What is written of the flight's mission alone: `setup`, its `toml`, and whether it `is_built_in`, unchanged."""
+    from tandemlift.missions import built_in, format_toml, load_mission, tables_of
+    from tandemlift.pictures.report.setup_section import setup_rows
+
+    is_built_in = flight.name in built_in() and tables_of(load_mission(flight.name)) == flight.mission
+    return {"setup": setup_rows(flight), "toml": format_toml(flight.mission), "is_built_in": is_built_in}
 
 
 def write_report(
@@ -105,6 +114,7 @@ def write_report(
     figures: str | os.PathLike[str] | Iterable[str | os.PathLike[str]],
     path: str | os.PathLike[str],
     replay: str | None = None,
+    facts: Mapping[str, Any] | None = None,
 ) -> Path:
     """Write the report of a flight atomically as one HTML file without references.
 
@@ -114,11 +124,13 @@ def write_report(
             left out.
         path: of the HTML file; its folder is made if it does not exist.
         replay: a page that plays the flight; the report opens with it, and with plots of the whole flight that zoom.
+        facts: `mission_facts`, if they are known.
 
     Returns:
         The path.
     """
-    words = captions()
+    facts, pngs = facts or mission_facts(flight), _pngs(flight, figures)
+    words = captions() if pngs else {}
     return write_page(
         path,
         "flight",
@@ -130,12 +142,12 @@ def write_report(
         notes=list(notes(flight)),
         crash=counted_until(flight),
         place=place_text,
-        setup=setup_table(flight),
-        figures=[shown_figure(name, png, words[name]) for name, png in _pngs(flight, figures).items()],
+        setup=PageTable("setup", (), facts["setup"]),
+        figures=[shown_figure(name, png, words[name]) for name, png in pngs.items()],
         metrics=list(_metrics(flight.metrics())),
         events=flight.metrics().get("events", []),
-        mission=format_toml(flight.mission),
-        is_built_in=_is_built_in(flight),
+        mission=facts["toml"],
+        is_built_in=facts["is_built_in"],
         versions=f"Flown with {', '.join(f'{name} {version}' for name, version in flight.version.items())}.",
     )
 
@@ -147,6 +159,7 @@ def write_flight_files(
     figures: bool = True,
     progress: Progress | None = None,
     replay: str | None = None,
+    facts: Mapping[str, Any] | None = None,
 ) -> None:
     """Write the files of a flight, and its figures and report; those of an earlier flight are removed.
 
@@ -156,23 +169,25 @@ def write_flight_files(
         figures: whether to draw the figures.
         progress: called after each figure with (figures written, figures in all).
         replay: a page that plays the flight, for the report.
+        facts: `mission_facts`, if they are known.
     """
-    with second_drawer(figures) as drawer:  # starts while the files are written
-        _write_data(flight, folder)
-        (folder / "report.html").unlink(missing_ok=True)
+    facts = facts or mission_facts(flight)
+    _write_data(flight, folder, facts["toml"])
+    (folder / "report.html").unlink(missing_ok=True)
+    if any((folder / "figures").glob("*.p[nd][gf]")):
         for name in captions():
             for kind in ("png", "pdf"):
                 (folder / "figures" / f"{name}.{kind}").unlink(missing_ok=True)
-        if figures:
-            drawer.save_figures(flight, folder / FLIGHT_FILE, folder / "figures", progress)
-    write_report(flight, folder / "figures", folder / "report.html", replay)
+    if figures:
+        draw_by_two(flight, folder / "figures", progress)
+    write_report(flight, folder / "figures", folder / "report.html", replay, facts)
 
 
-def _write_data(flight: Flight, folder: Path) -> None:
+def _write_data(flight: Flight, folder: Path, toml: str) -> None:
     """Write mission, flight, metrics and findings: all of them, or none."""
     try:
         with write_together(folder) as aside:
-            write_file(aside / "mission.toml", format_toml(flight.mission))
+            write_file(aside / "mission.toml", toml)
             flight.save(aside / FLIGHT_FILE)
             for file, data in (
                 ("metrics.json", flight.metrics()),

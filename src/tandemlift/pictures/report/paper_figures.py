@@ -37,8 +37,8 @@ from tandemlift.pictures.drawing.style import (
     points,
     styled,
 )
-from tandemlift.pictures.drawing.surroundings import floor_height, walls_in
-from tandemlift.pictures.drawing.vehicle import Skeleton, skeleton
+from tandemlift.pictures.drawing.surroundings import walls_in
+from tandemlift.pictures.drawing.vehicle import Skeleton, floor_height, skeleton
 from tandemlift.pictures.figures.registry import figures, save_figure
 
 DATA = files("tandemlift") / "data" / "paper"

@@ -1,139 +1,91 @@
-"""A second process that draws figures of a saved flight while the first one draws others.
+"""A second process that draws figures of a flight while the first one draws others.
 
-Drawing takes longer than flying, and the drawing library uses one processor. `python -m` this file is that process: it
-reads a request a line, draws the figure, and answers. A figure that it cannot draw is drawn by the first process.
+Drawing takes longer than flying, and the drawing library uses one processor. The second process is a fork of the first,
+with the library loaded and the flight in memory. Whoever is free takes the next figure; one that the second process
+does not draw is drawn by the first.
 """
 
 from __future__ import annotations
 
-import json
 import os
-import subprocess
+import signal
 import sys
-from collections import deque
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+import threading
+import warnings
+from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
-from threading import Lock, Thread
-from typing import IO
 
 from tandemlift.core.types import Progress
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.drawing.figure import current_style, figure_style
 from tandemlift.pictures.figures.registry import figures_for, save_figures, save_flight_figure
 
-DRAWN = "drawn"
-WORTH = 4  # figures from which on a second process saves time: it needs that of one figure to start
+WORTH = 2  # figures from which on a second process saves time
+NONE = -1  # the number of no figure
 
 
-class SecondDrawer:
-    """A process that draws; see `second_drawer`."""
-
-    def __init__(self, pipes: tuple[IO[str], ...] = ()) -> None:
-        self._pipes = pipes  # of requests and answers; none without the process
-
-    def save_figures(self, flight: Flight, file: Path, folder: Path, progress: Progress | None = None) -> None:
-        """Write every figure of a flight, as `save_figures` does, in both processes.
-
-        Args:
-            flight: that is saved.
-            file: in which it is saved.
-            folder: of the figures.
-            progress: called with (figures written, figures in all), first before any is drawn.
-        """
-        names = deque(figures_for(flight))
-        if not self._pipes or len(names) < WORTH:
-            save_figures(flight, folder, progress)
-            return
-        folder.mkdir(parents=True, exist_ok=True)
-        count = _Counter(len(names), progress)
-        request = {"flight": str(file), "folder": str(folder), "style": current_style().name}
-        left: list[str] = []  # figures that the other process could not draw
-        other = Thread(target=self._draw, args=(names, request, count, left))
-        other.start()
-        _draw_each(flight, names, folder, count)
-        other.join()
-        _draw_each(flight, deque(left), folder, count)
-
-    def _draw(self, names: deque[str], request: dict[str, str], count: _Counter, left: list[str]) -> None:
-        """Have the other process draw figures from the end of the list until none is left, or one fails."""
-        requests, answers = self._pipes
-        while name := _taken(names.pop):
-            try:
-                requests.write(json.dumps({**request, "figure": name}) + "\n")
-                requests.flush()
-                answer = answers.readline().strip()
-            except (OSError, ValueError):  # the process has ended, or its pipes are closed
-                answer = ""
-            if answer != DRAWN:
-                left.append(name)
-                return
-            count.one_more()
+def can_fork() -> bool:
+    """Whether a fork is safe and gains: on Linux, without threads but those that wait for ever, on two processors."""
+    alone = all(thread.daemon for thread in threading.enumerate() if thread is not threading.main_thread())
+    return sys.platform == "linux" and alone and (os.cpu_count() or 1) > 1
 
 
-class _Counter:
-    """Counts what two threads have drawn."""
+def draw_by_two(flight: Flight, folder: Path, progress: Progress | None = None) -> None:
+    """Write every figure of a flight, as `save_figures` does, by two processes where that is possible.
 
-    def __init__(self, total: int, progress: Progress | None) -> None:
-        self._total, self._progress, self._done, self._lock = total, progress, 0, Lock()
-        if progress:
-            progress(0, total)
-
-    def one_more(self) -> None:
-        """One more figure is written."""
-        with self._lock:
-            self._done += 1
-            if self._progress:
-                self._progress(self._done, self._total)
-
-
-def _taken(take: Callable[[], str]) -> str | None:
-    """The figure that is taken from one end of the list; None if there is none."""
-    try:
-        return take()
-    except IndexError:
-        return None
-
-
-def _draw_each(flight: Flight, names: deque[str], folder: Path, count: _Counter) -> None:
-    while name := _taken(names.popleft):
-        save_flight_figure(flight, name, folder)
-        count.one_more()
-
-
-@contextmanager
-def second_drawer(wanted: bool = True) -> Iterator[SecondDrawer]:
-    """A drawer with a second process, if it is wanted and there is a processor for it; it ends with the context."""
-    command = [sys.executable, "-m", __name__]
-    if not wanted or (os.cpu_count() or 1) < 2 or not sys.executable:
-        yield SecondDrawer()
+    Args:
+        flight: of any outcome.
+        folder: of the figures; made if it does not exist.
+        progress: called with (figures written, figures in all), first before any is drawn.
+    """
+    names = list(figures_for(flight))
+    if len(names) < WORTH or not can_fork():
+        save_figures(flight, folder, progress)
         return
-    with subprocess.Popen(
-        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
-    ) as process:
+    folder.mkdir(parents=True, exist_ok=True)
+    left = set(range(len(names)))
+
+    def written(number: int) -> None:
+        left.discard(number)
+        if progress:
+            progress(len(names) - len(left), len(names))
+
+    written(NONE)
+    (free, numbers), (drawn, drawing) = os.pipe(), os.pipe()  # a byte for each figure not yet taken, and drawn there
+    os.write(numbers, bytes(left))
+    os.close(numbers)
+    second = _forked(lambda: _draw_each(flight, names, folder, free, lambda number: os.write(drawing, bytes([number]))))
+    os.close(drawing)
+    try:
+        _draw_each(flight, names, folder, free, written)
+        while said := os.read(drawn, 1):
+            written(said[0])
+    finally:
+        os.close(free)
+        os.close(drawn)
+        with suppress(ProcessLookupError):
+            os.kill(second, signal.SIGTERM)  # it has ended, unless this one was interrupted
+        os.waitpid(second, 0)
+    for number in sorted(left):
+        save_flight_figure(flight, names[number], folder)
+        written(number)
+
+
+def _draw_each(flight: Flight, names: list[str], folder: Path, free: int, written: Callable[[int], object]) -> None:
+    """Draw the next figure that nobody has taken, until none is left."""
+    while taken := os.read(free, 1):
+        save_flight_figure(flight, names[taken[0]], folder)
+        written(taken[0])
+
+
+def _forked(work: Callable[[], None]) -> int:
+    """The number of a process that does some work and ends without a word."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # of a fork beside threads that wait
+        process = os.fork()
+    if not process:
         try:
-            yield SecondDrawer(tuple(pipe for pipe in (process.stdin, process.stdout) if pipe))
+            work()
         finally:
-            process.kill()
-            if process.stdin:
-                with suppress(OSError):  # a request that it did not read
-                    process.stdin.close()
-
-
-def main() -> None:
-    """Draw what the lines of standard input ask for, until it ends."""
-    import tandemlift.pictures.drawing.style  # noqa: F401  loads the drawing library while the flight is still written
-
-    flights = dict[str, Flight]()
-    for line in sys.stdin:
-        request = json.loads(line)
-        file = request["flight"]
-        if file not in flights:
-            flights = {file: Flight.load(file)}
-        with figure_style(request["style"]):
-            save_flight_figure(flights[file], request["figure"], Path(request["folder"]))
-        print(DRAWN, flush=True)
-
-
-if __name__ == "__main__":
-    main()
+            os._exit(0)  # whatever happened: what it did not write, the first process does
+    return process

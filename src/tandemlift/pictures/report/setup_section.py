@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
@@ -10,8 +10,7 @@ from pydantic import TypeAdapter, ValidationError
 from tandemlift.core.errors import InputError, shown
 from tandemlift.flight import Flight
 from tandemlift.missions import Mission
-from tandemlift.pictures.drawing.surroundings import floor_height
-from tandemlift.pictures.report.page import PageTable
+from tandemlift.pictures.drawing.vehicle import floor_height
 
 Row = tuple[str, str]
 
@@ -225,8 +224,3 @@ def setup_rows(flight: Flight) -> list[Row]:
     """The set-up of a flight: rows of a name and a description."""
     parts = (_vehicle, _pilot, _guidance, _watch, _rotors, _sensors, _surroundings, _person)
     return [row for part in parts for row in part(flight)]
-
-
-def setup_table(flight: Flight, without: Sequence[str] = ()) -> PageTable:
-    """The set-up of a flight as a table, a row each; without some parts."""
-    return PageTable("setup", (), [row for row in setup_rows(flight) if row[0] not in without])

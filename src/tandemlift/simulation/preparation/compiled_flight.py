@@ -82,13 +82,18 @@ class LoopCode:
     def _code(self, kind: str, number: int, names: list[str], going: Callable[[], bool] = always) -> Code:
         with self._lock:
             if (kind, number) not in self._codes:
-                x = self.templates
-                key = key_of((x.model, x.given), kind, number, x.nowhere, self.fuses)
+                key = self.key(kind, number)
                 best = machine.BEST_OF_VECTORS if kind != "parts" and number > 1 else machine.BEST
-                self._codes[kind, number] = Code(key, names, lambda: self._written(kind, number), best, going)
+                self._codes[kind, number] = Code(key, names, lambda: self.written(kind, number), best, going)
             return self._codes[kind, number]
 
-    def _written(self, kind: str, number: int) -> Written:
+    def key(self, kind: str, number: int) -> str:
+        """The key of the code of a loop or of parts by its sources (`key_of`)."""
+        x = self.templates
+        return key_of((x.model, x.given), kind, number, x.nowhere, self.fuses)
+
+    def written(self, kind: str, number: int) -> Written:
+        """The module of a loop or of parts as text."""
         with self._lock:
             (what, *own), lanes = kind.split(), 1 if kind == "parts" else number
             alike = [span for name, span in self._spans.items() if lanes > 1 and name not in own]

@@ -152,6 +152,13 @@ class FlightMemory:
         """Set a word of the context."""
         self._context[AT[word]] = value
 
+    @property
+    def held(self) -> dict[str, Numbers]:
+        """What its flights begin with: its context as it is, as `words`, and the arrays that this has addresses of."""
+        arrays = self.numbers, self.ring, self.grid.delays, self.keys, self.last, *self._tables
+        names = "flight", "ring", "delays", "keys", "last", *TABLES
+        return {"words": self._context, **dict(zip(names, arrays, strict=True))}
+
     def fly(self, stop: int) -> int:
         """Fly on to step `stop`; a flight alone stops where it crashes or diverges. The step reached."""
         self.put("k", self.k)

@@ -17,7 +17,6 @@ from tandemlift.core.algebra import Number, absolute, maximum, where
 from tandemlift.core.phases import GUIDED, HOLD, IDLE, LAND, LIFT
 from tandemlift.core.types import Array, is_value, leaves
 from tandemlift.core.vector import Quat, Vec3, cross, dot
-from tandemlift.simulation.results import channels_of
 
 RATE = 60  # frames a second, at most
 STATUS_EVERY = RATE // 4  # frames, from one status to the next
@@ -129,6 +128,8 @@ Components = tuple[Any, ...]  # of a channel or of a field: numbers, arrays (T,)
 
 def channel_columns(layout: object, names: Container[str] | None = USED) -> dict[str, NDArray[np.intp]]:
     """The columns of a sample that hold each channel in `names`, of all if None; `layout`: of the sample."""
+    from tandemlift.simulation.results import channels_of  # with all laws, which a replay has no use for
+
     row = np.arange(leaves(layout), dtype=np.float64)[None, :]
     return {name: at.astype(np.intp).ravel() for name, at in channels_of(layout, row) if names is None or name in names}
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,12 +16,13 @@ from tandemlift.core.files import __version__
 from tandemlift.core.phases import PHASE_NAMES
 from tandemlift.core.types import Array
 from tandemlift.core.vector import Absent
-from tandemlift.engines.models.scene import floor_from
 from tandemlift.engines.models.visuals import BEAM_RADIUS, SHAPELESS, VisualShape, vehicle_shapes
-from tandemlift.missions import Mission, tables_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import Quadrotor
-from tandemlift.simulation.plan import FlightPlan
+
+if TYPE_CHECKING:
+    from tandemlift.missions import Mission
+    from tandemlift.simulation.plan import FlightPlan
 
 SPRING = server.SceneSpring(stiffness=8.0, damping=2.0, max_force=8.0)  # of a page's hand, where a mission has none
 WALL_THICKNESS = 0.02  # m, as drawn; walls have none
@@ -32,6 +33,9 @@ PAST, PAST_RATE = 20, 20  # s that a page's plots show; samples that they keep o
 
 def scene_of(mission: Mission, engine: str) -> server.FlightScene:
     """The scene of a mission in an engine, without the parameters that may be changed in flight."""
+    from tandemlift.engines.models.scene import floor_from
+    from tandemlift.missions import tables_of
+
     vehicle = Vehicle.from_settings(mission.vehicle)
     floor = floor_from(mission, vehicle)
     height = _lowest(mission.initial.position[2], vehicle) if isinstance(floor, Absent) else float(floor.height)
@@ -161,6 +165,8 @@ class FrameBuilder:
     """
 
     def __init__(self, plan: FlightPlan) -> None:
+        from tandemlift.missions import tables_of
+
         mission = plan.mission
         self.scene = scene_of(mission, plan.engine)
         self._layout = frames.layout_for(Vehicle.from_settings(mission.vehicle).rotor_count)

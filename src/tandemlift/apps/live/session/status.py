@@ -5,19 +5,19 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from tandemlift.apps.live.session import server_messages as server
-from tandemlift.apps.live.session.challenge import score_so_far
-from tandemlift.apps.live.session.checks import failed_rotors, tare_left
-from tandemlift.apps.live.session.pacing import Pacer
 from tandemlift.core.faults import ALARM_TEXTS
 from tandemlift.core.findings import Finding
 from tandemlift.core.phases import PHASE_NAMES
 from tandemlift.core.refusals import Refusals, refusals_for
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Ending
-from tandemlift.simulation.recorded_flight import RecordedFlight
+
+if TYPE_CHECKING:
+    from tandemlift.apps.live.session.pacing import Pacer
+    from tandemlift.simulation.recorded_flight import RecordedFlight
 
 FINDINGS_EVERY = 1.0  # s
 NO_REFUSALS = server.StatusRefusals(lift="", land="", push="")
@@ -75,6 +75,8 @@ class FlightFindings:
 
     def added_to(self, status: server.FlightStatus) -> server.FlightStatus:
         """The status with the findings at the last update, and the score so far; the flight may continue meanwhile."""
+        from tandemlift.apps.live.session.challenge import score_so_far
+
         status["findings"] = self._formed()
         if self._of and (score := score_so_far(self._of)):
             status["score"] = score
@@ -135,6 +137,8 @@ def status_of(
     flight: RecordedFlight, pacer: Pacer, values: Mapping[str, Any], vehicle: server.SceneVehicle, failed: bool
 ) -> server.FlightStatus:
     """The status of a flight, without its findings; `values`: of the fields of its latest frame."""
+    from tandemlift.apps.live.session.checks import failed_rotors, tare_left
+
     most, pacer.most_behind = pacer.most_behind, 0.0
     return server.FlightStatus(
         phase=phase_of(flight, int(values["phase"][0]), failed),
