@@ -10,6 +10,8 @@ from collections.abc import Callable, Iterable, Iterator, Sequence, Sized
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import Any, Literal, NamedTuple
 
+import numpy as np
+
 from tandemlift.core.errors import InputError
 from tandemlift.core.progress import Stopped, always, progress_or_own
 from tandemlift.core.types import Progress, leaves, unflat
@@ -21,6 +23,7 @@ from tandemlift.simulation.caller_values import count_of
 from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import LANES, FlightMemory
+from tandemlift.simulation.preparation.memory import Numbers
 from tandemlift.simulation.results import RawResult, flight_of, metrics_of, take_metrics
 from tandemlift.simulation.stepping import body_of, fly_stepwise
 
@@ -56,28 +59,39 @@ def _fly_compiled(
     progress: Progress | None = None,
     going: Callable[[], bool] = always,
 ) -> list[RawResult]:
-    """Fly one flight, or up to LANES of one variant and grid; diverged ones are flown again alone, to stop in time."""
+    """Fly one flight, or up to `lanes` of one variant and grid; diverged ones are flown again alone, to stop in time.
+
+    In single precision a block halts where one of them ends.
+    """
     p, count = flights[0], len(flights)
-    lanes = [*flights, *[flights[-1]] * (LANES - count)] if count > 1 else flights
+    in_block = count > 1 or p.single
+    lanes = [*flights, *[flights[-1]] * (p.lanes - count)] if in_block else flights
     starts = [f.start() for f in lanes]
     code = p.loop_code.loop(len(lanes), going, differ=p.loop_code.parts_that_differ(starts))
     memory = FlightMemory(code, starts, p.grid(rows, every), leaves(p.sample))
-    began, early = time.perf_counter(), [EMPTY] * len(lanes)
-    for k in _stretches(p, memory, going):
-        if k == p.late_step < p.steps:
-            early = take_metrics(memory.numbers, p.model, len(lanes))
-        if progress:
-            progress(k, p.steps)
-    wall = (time.perf_counter() - began) / count
-    like = p.model.flight_state
+    began, early, like = time.perf_counter(), [EMPTY] * len(lanes), p.model.flight_state
     states = memory.numbers.reshape(-1, len(lanes))[: leaves(like)]
-    last = memory.work[memory.span("sample")].reshape(-1, len(lanes)) if count > 1 else memory.last[:, None]
-    logs = [log.copy() for log in memory.log[:count]] if count > 1 else memory.log  # copies let go of all lanes
+    ended = dict[int, tuple[Numbers, int]]()
+    if p.single:
+        memory.halt(count)
+    while True:
+        for k in _stretches(p, memory, going):
+            if k == p.late_step < p.steps:
+                early = take_metrics(memory.numbers, p.model, len(lanes))
+            if progress:
+                progress(k, p.steps)
+        ended |= {lane: (states[:, lane].copy(), memory.k) for lane in memory.halted(p.place("flight_state", "ended").at)}
+        if not p.single or memory.k >= p.steps or len(ended) == count:
+            break
+    wall = (time.perf_counter() - began) / count
+    last = memory.work[memory.span("sample")].reshape(-1, len(lanes)) if in_block else memory.last[:, None]
+    logs = [log.copy() for log in memory.log[:count]] if in_block else memory.log  # copies let go of all lanes
+    finals = [ended.get(i, (states[:, i], min(memory.k, p.steps))) for i in range(count)]
     flown = [
-        RawResult(unflat(states[:, i], like), early[i], min(memory.k, p.steps), logs[i], last[:, i].copy(), wall)
-        for i in range(count)
+        RawResult(unflat(numbers, like), early[i], step, logs[i], last[:, i].astype(np.float64), wall)
+        for i, (numbers, step) in enumerate(finals)
     ]
-    if count == 1:
+    if count == 1 or p.single:
         return flown
     return [
         _fly_compiled([f], rows, every, going=going)[0] if x.lost else x for f, x in zip(flights, flown, strict=True)
@@ -206,9 +220,9 @@ class _FlightGroup(NamedTuple):
         return taken
 
     def blocks(self) -> Iterator[_FlightGroup]:
-        """Take out all, at most LANES at once, in the order of what happens in the flights."""
+        """Take out all, at most `lanes` at once, in the order of what happens in the flights."""
         while self.flights:
-            yield self.pop(sorted(range(len(self.flights)), key=lambda i: self.flights[i].regime)[:LANES])
+            yield self.pop(sorted(range(len(self.flights)), key=lambda i: self.flights[i].regime)[: self.flights[0].lanes])
 
 
 class _FlightGroups:
@@ -269,7 +283,7 @@ class _FlightGroups:
             return error
 
     def _grouped(self, missions: Iterable[MissionLike | InputError]) -> Iterator[_FlightGroup]:
-        """Groups of flights of one variant and grid, at most LANES; stepwise flights alone.
+        """Groups of flights of one variant and grid, at most `lanes`; stepwise flights alone.
 
         A block takes as long as if what happens in a lane happened in all, so flights wait for others of their regime.
         """
@@ -286,7 +300,7 @@ class _FlightGroups:
                 group.places.append(place)
                 group.flights.append(p)
                 alike = [i for i, flight in enumerate(group.flights) if flight.regime == p.regime]
-                if len(alike) == LANES:
+                if len(alike) == p.lanes:
                     yield group.pop(alike)
                 elif len(group.flights) == SORTED:
                     yield from group.blocks()

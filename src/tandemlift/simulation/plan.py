@@ -19,7 +19,8 @@ from tandemlift.parts.controllers import NoMemory, control
 from tandemlift.parts.interaction.caller_inputs import CallerInput, OutsidePush
 from tandemlift.parts.interaction.requests import ReferenceVelocity
 from tandemlift.simulation.loop.log_sample import Sample
-from tandemlift.simulation.preparation import FlightStart, LeafSpan, LoopCode, PythonController, TimeGrid, leaf_offset
+from tandemlift.simulation.preparation import LANES, FlightStart, LeafSpan, LoopCode, PythonController, TimeGrid, leaf_offset
+from tandemlift.simulation.preparation.memory import in_floats
 from tandemlift.simulation.preparation.assemble import assemble
 from tandemlift.simulation.preparation.traced_assembly import assembled_by_graph
 
@@ -45,6 +46,7 @@ class FlightPlan:
         self.steps = mission.mission.steps
         self.every = mission.mission.log_every
         self.dt = mission.mission.step
+        self.single = mission.mission.precision == "single"
         self.model, self.given, self.tables, self.delays, self.seeds = assembled_by_graph(mission, assemble)
         if interactive:
             rotors = 4 * len(mission.vehicle.quadrotors)
@@ -68,7 +70,7 @@ class FlightPlan:
     @cached_property
     def variant(self) -> Any:
         """The key of the compiled loop: the types, not the values, of its members and inputs; and its rounding."""
-        return self._parts[0], layout(self.given), self.mission.mission.fma
+        return self._parts[0], layout(self.given), self.mission.mission.fma, self.single
 
     @cached_property
     def _parts(self) -> tuple[Any, list[float]]:
@@ -99,6 +101,11 @@ class FlightPlan:
         """The first step that starts at `LATE` or later."""
         return math.ceil(LATE / self.dt - 1e-9)
 
+    @property
+    def lanes(self) -> int:
+        """Flights of a block: as many as a vector of the processor has numbers."""
+        return LANES * (1 + self.single)
+
     @cached_property
     def regime(self) -> tuple[float, ...]:
         """What happens in the flight that takes code of its own: the number of walls, and when rotors fail [s]."""
@@ -109,11 +116,11 @@ class FlightPlan:
     def loop_code(self) -> LoopCode:
         """The compiled loops of this variant."""
         key = self.variant, replaced()
-        return LOOP_CODE.of(key, lambda: LoopCode(self.model, self.given, fuses=self.mission.mission.fma))
+        return LOOP_CODE.of(key, lambda: LoopCode(self.model, self.given, fuses=self.mission.mission.fma, single=self.single))
 
     def start(self) -> FlightStart:
         """The flight at its first step, as input of a compiled loop."""
-        numbers = np.array(self._parts[1], dtype=float)
+        numbers = in_floats(self._parts[1]) if self.single else np.array(self._parts[1], dtype=float)
         return FlightStart(numbers, self.tables, self._delay_lines(numbers), self.seeds)
 
     def grid(self, rows: int, every: int) -> TimeGrid:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import operator
 import struct
 from abc import ABC, abstractmethod
@@ -12,7 +13,7 @@ from typing import Any, NamedTuple
 from tandemlift.compiler.tracer.graph import Graph
 from tandemlift.compiler.tracer.symbol import Symbol
 
-BASE = {"f": "double", "b": "i1", "i": "i64"}  # LLVM's name for each type of the graph
+BASE = {"b": "i1", "i": "i64", "w": "i32"}  # LLVM's name for each type of the graph; for `f` see `Graph.real`
 WIDE = '"prefer-vector-width"="512" "min-legal-vector-width"="512"'
 LONG = 8_000  # lines, from which on the instruction cache limits a function, which is then optimised for size
 ATTRIBUTES = [
@@ -20,6 +21,8 @@ ATTRIBUTES = [
     f"attributes #1 = {{ nounwind noinline {WIDE} }}",
     f"attributes #2 = {{ nounwind noinline optsize minsize {WIDE} }}",
 ]
+DOUBLE_EPSILON, FLOAT_EPSILON = 2.0**-52, 2.0**-23
+SMALLEST, LARGEST = 2.0**-126, (2.0 - 2.0**-23) * 2.0**127  # normal floats
 INTEGER_OPS = {"add": operator.add, "mul": operator.mul}
 
 
@@ -62,7 +65,8 @@ class Text(ABC):
         self.module, self.graph, self.lanes, self.head = module, graph, lanes, head
         self.read: dict[str, Callable[[int], str | Place]] = {}
         self.kept: dict[int, Callable[[], str | Place]] = {}
-        self.vector = "double" if lanes == 1 else f"<{lanes} x double>"
+        self.real, self.base = graph.real, {"f": graph.real, **BASE}
+        self.vector = self.real if lanes == 1 else f"<{lanes} x {self.real}>"
         self.zero = "0.0" if lanes == 1 else "zeroinitializer"
         self.lines: list[str] = ["entry:"]
         self._rooms: list[str] = []
@@ -169,7 +173,7 @@ class Text(ABC):
         return self.op(f"getelementptr inbounds nuw {kind or self.vector}, ptr {base}, i64 {index}")
 
     def load(self, base: str, index: str | int = 0, kind: str = "") -> str:
-        """A value of all lanes from memory, or of another kind (`double`, `i64`, `ptr`)."""
+        """A value of all lanes from memory, or of another kind (`self.real`, `i64`, `ptr`)."""
         return self.op(f"load {kind or self.vector}, ptr {self.at(base, index, kind)}, align 8")
 
     def store(self, value: str, base: str, index: str | int = 0, kind: str = "") -> None:
@@ -200,22 +204,37 @@ class Text(ABC):
         self._rooms.append(f"  {name} = alloca {self.vector}, i64 {count}, align 64")
         return name
 
-    def spread(self, value: str, base: str = "double") -> str:
+    def spread(self, value: str, base: str = "") -> str:
         """A scalar in all lanes."""
         if self.lanes == 1:
             return value
+        base = base or self.real
         kind = f"<{self.lanes} x {base}>"
         first = self.op(f"insertelement {kind} poison, {base} {value}, i64 0")
         return self.op(f"shufflevector {kind} {first}, {kind} poison, <{self.lanes} x i32> zeroinitializer")
 
 
-def constant(value: Any) -> str:
-    """A constant of the graph as text."""
+def constant(value: Any, real: str = "double") -> str:
+    """A constant of a graph whose numbers are doubles or floats (`real`) as text."""
     if isinstance(value, bytes):
+        if real == "float":  # which LLVM, too, writes as a double
+            value = struct.pack("<d", nearest_float(struct.unpack("<d", value)[0]))
         return f"0x{struct.unpack('<Q', value)[0]:016X}"
     return str(value).lower()
 
 
-def double(value: float) -> str:
+def double(value: float, real: str = "double") -> str:
     """A number as text, to the last bit."""
-    return constant(struct.pack("<d", value))
+    return constant(struct.pack("<d", value), real)
+
+
+def nearest_float(x: float) -> float:
+    """The float that stands for a number in single precision.
+
+    A number too small for a normal float becomes the smallest, as it guards a division, and one that is too large the
+    largest; the distance of doubles from 1 becomes that of floats.
+    """
+    if x == 0.0 or not math.isfinite(x):
+        return x
+    size = FLOAT_EPSILON if x == DOUBLE_EPSILON else min(max(abs(x), SMALLEST), LARGEST)
+    return float(struct.unpack("<f", struct.pack("<f", math.copysign(size, x)))[0])

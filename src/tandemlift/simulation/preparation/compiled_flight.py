@@ -13,6 +13,7 @@ from tandemlift.compiler.machine_code.code import Code, Written
 from tandemlift.compiler.machine_code.store import key_of
 from tandemlift.compiler.tracer import Function
 from tandemlift.core.progress import always
+from tandemlift.simulation.loop.external_inputs import LANES
 from tandemlift.simulation.loop.sources import LeafSpan, delayed_spans, leaf_offset
 from tandemlift.simulation.loop.step import FlightModel, StepInputs
 from tandemlift.simulation.preparation.loops import LoopWriter
@@ -29,11 +30,16 @@ DRAWN = "sensors"  # the one with numbers that are drawn by the seed
 class LoopCode:
     """The compiled loops for flights laid out like `model`, with inputs laid out like `given`.
 
-    Each loop is compiled on first use. `fuses`: whether a·b + c is rounded once.
+    Each loop is compiled on first use. `fuses`: whether a·b + c is rounded once. `single`: whether its numbers are
+    floats; then there are only loops for blocks.
+
+    Attributes:
+        lanes: flights of a block.
     """
 
-    def __init__(self, model: FlightModel, given: StepInputs, *, fuses: bool = True) -> None:
-        self.templates, self.fuses = templates_from(model, given), fuses
+    def __init__(self, model: FlightModel, given: StepInputs, *, fuses: bool = True, single: bool = False) -> None:
+        self.templates, self.fuses, self.single = templates_from(model, given), fuses, single
+        self.lanes = 2 * LANES if single else LANES
         self.delayed = delayed_spans(self.templates.model)
         self._lock, self._codes = threading.RLock(), dict[tuple[str, int], Code]()
         self._own = set[str]()
@@ -41,10 +47,10 @@ class LoopCode:
     @cached_property
     def traced(self) -> TracedStep:
         """The graph of a step."""
-        return TracedStep(self.templates, fuses=self.fuses)
+        return TracedStep(self.templates, fuses=self.fuses, single=self.single)
 
     def loop(self, lanes: int, going: Callable[[], bool] = always, *, differ: Collection[str] = ()) -> Code:
-        """`fly`, the loop over steps, for one flight or for a block of LANES; compiled only while `going()` is true.
+        """`fly`, the loop over steps, for one flight or for a block of `lanes`; compiled only while `going()` is true.
 
         The code of a block reads as scalars the parameters of parts in which its lanes do not `differ`. The first block
         decides which these are; for blocks that this does not fit, there is code without such scalars.
@@ -61,7 +67,7 @@ class LoopCode:
 
     def parts_that_differ(self, starts: Sequence[FlightStart]) -> set[str]:
         """The parts of a `FlightModel` in whose parameters flights differ by a bit; all if these have most of them."""
-        numbers = np.array([start.numbers for start in starts]).view(np.int64)
+        numbers = np.array([start.numbers for start in starts]).view(np.int32 if self.single else np.int64)
         differ = (numbers != numbers[0]).any(axis=0)
         found = {name: size for name, (at, size) in self._spans.items() if differ[at : at + size].any()}
         return set(found if 2 * sum(found.values()) < sum(span.size for span in self._spans.values()) else PARTS)
@@ -79,7 +85,7 @@ class LoopCode:
         with self._lock:
             if (kind, number) not in self._codes:
                 x = self.templates
-                key = key_of((x.model, x.given), kind, number, x.nowhere, self.fuses)
+                key = key_of((x.model, x.given), kind, number, x.nowhere, self.fuses, self.single)
                 best = machine.BEST_OF_VECTORS if kind != "parts" and number > 1 else machine.BEST
                 self._codes[kind, number] = Code(key, names, lambda: self._written(kind, number), best, going)
             return self._codes[kind, number]
@@ -94,7 +100,8 @@ class LoopCode:
                 write_many_blocks(step)
                 text = step.module.text
             spans = {name: span for name, span in step.scratch.spans.items() if "_" not in name}
-            return Written(text, {"size": step.scratch.size, "rooms": spans, "own": own})
+            about = {"size": step.scratch.size, "rooms": spans, "own": own, "rests": len(self.traced.rests)}
+            return Written(text, about)
 
 
 def write_many_blocks(step: LoopWriter) -> None:
@@ -112,7 +119,7 @@ def write_many_blocks(step: LoopWriter) -> None:
         work = f.load(context, AT["work"], "ptr")
         with f.repeat(word["rows"]) as row:
             number = f.integer("add", f.integer("mul", row, word["lanes"]), f.integer("mul", b, step.lanes))
-            given = f.op(f"load {vector}, ptr {f.at(word['actions'], number, 'double')}, align 8")
+            given = f.op(f"load {vector}, ptr {f.at(word['actions'], number, step.real)}, align 8")
             f.store(given, work, f.integer("add", row, word["place"]), vector)
         f.store(word["stop"], context, AT["stop"], "i64")
         f.store(f.integer("sub", word["stop"], 1), context, AT["show"], "i64")

@@ -7,12 +7,13 @@ a step keeps for its later parts.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.compiler.machine_code.code import Code
+from tandemlift.compiler.tracer.text import LARGEST, SMALLEST
 from tandemlift.core.types import flat
 from tandemlift.parts.interaction.person import PathLeg
 from tandemlift.parts.mechanics.push import GaussianPush
@@ -59,15 +60,25 @@ class ScratchLayout:
         return begin
 
 
-def aligned(size: int) -> NDArray[np.float64]:
-    """Zeros that begin at a multiple of 64 bytes: a vector of eight never crosses a line of the processor's cache."""
-    padded = np.zeros(size + 8)
+def aligned(size: int, kind: Any = np.float64) -> NDArray[Any]:
+    """Zeros that begin at a multiple of 64 bytes: a vector of as many never crosses a line of the processor's cache."""
+    padded = np.zeros(size + 64 // np.dtype(kind).itemsize, kind)
     first = -padded.ctypes.data % 64 // padded.itemsize
     return padded[first : first + size]
 
 
+def in_floats(numbers: Any) -> NDArray[np.float32]:
+    """Numbers as floats; one too small or too large for a normal float becomes the smallest or the largest."""
+    exact = np.asarray(numbers, dtype=np.float64)
+    near = np.copysign(np.clip(np.abs(exact), SMALLEST, LARGEST), exact)
+    return np.where((exact == 0.0) | ~np.isfinite(exact), exact, near).astype(np.float32)
+
+
 class FlightStart(NamedTuple):
-    """A flight at its first step: numbers, tables, delay lines (rows × numbers), and the key of its random numbers."""
+    """A flight at its first step: numbers, tables, delay lines (rows × numbers), and the key of its random numbers.
+
+    `numbers` are doubles, or floats where it flies in single precision.
+    """
 
     numbers: Numbers
     tables: InputTables
@@ -111,10 +122,11 @@ class FlightMemory:
         columns: int,
         shared: tuple[Numbers, Words] | None = None,
     ) -> None:
-        self.grid, self.k, self.starts, lanes = grid, 0, list(starts), len(starts)
-        own = aligned(starts[0].numbers.size * lanes), np.zeros(len(WORDS), dtype=np.int64)
+        self.grid, self.k, self.starts, lanes, self.kind = grid, 0, list(starts), len(starts), starts[0].numbers.dtype
+        size = starts[0].numbers.size + code.about["rests"]
+        own = aligned(size * lanes, self.kind), np.zeros(len(WORDS), dtype=np.int64)
         self.numbers, self._context = shared or own
-        self.ring, self.keys = aligned(starts[0].ring.size * lanes), aligned(starts[0].keys.size * lanes)
+        self.ring, self.keys = aligned(starts[0].ring.size * lanes, self.kind), aligned(starts[0].keys.size * lanes)
         self.use(code)
         self.log, self.last = np.zeros((lanes, grid.rows, columns)), np.full(columns, np.nan)
         arrays = (self.numbers, self.work, self.ring, grid.delays, self.keys, self.log, self.last)
@@ -134,7 +146,7 @@ class FlightMemory:
 
     def use(self, code: Code) -> None:
         """Fly on in other code."""
-        self.code, self.work = code, aligned(code.about["size"] * len(self.starts))
+        self.code, self.work = code, aligned(code.about["size"] * len(self.starts), self.kind)
         self.put("work", self.work.ctypes.data)
         self.put("fresh", 1)
 
@@ -150,10 +162,11 @@ class FlightMemory:
     def _write(self, lane: int) -> None:
         start, lanes = self.starts[lane], len(self.starts)
         for array, own in ((self.numbers, start.numbers), (self.ring, start.ring), (self.keys, start.keys)):
-            array.reshape(-1, lanes)[:, lane] = own.ravel()
+            rows = array.reshape(-1, lanes)[:, lane]
+            rows[: own.size], rows[own.size :] = own.ravel(), 0.0
 
     def _write_tables(self) -> None:
-        self._tables = [_table(tables, idle) for tables, idle in zip(self._tables_of_lanes, IDLE, strict=True)]
+        self._tables = [_table(tables, idle, self.kind) for tables, idle in zip(self._tables_of_lanes, IDLE, strict=True)]
         for word, table in zip(TABLES, self._tables, strict=True):
             self.put(word, table.ctypes.data)
         for word, tables in zip(COUNTS, self._tables_of_lanes, strict=True):
@@ -175,6 +188,23 @@ class FlightMemory:
         self.put("fresh", 0)
         return self.k
 
+    def halt(self, count: int) -> None:
+        """Let a block halt where one of its first flights ends."""
+        sample = self.work[self.span("sample")]
+        self.work[self.span("halts")][:count] = 1.0
+        self.put("shown", sample.ctypes.data)  # the sample of the step in which it ends
+        self.put("apart", 1)
+
+    def halted(self, ended_at: int) -> list[int]:
+        """The lanes that have just halted a block, which halt it no more; `ended_at`: the number that tells the end."""
+        if len(self.starts) == 1:
+            return []
+        halts, lanes = self.work[self.span("halts")], len(self.starts)
+        ended = self.numbers[ended_at * lanes : (ended_at + 1) * lanes] != 0.0
+        found = np.flatnonzero((halts != 0.0) & ended)
+        halts[found] = 0.0
+        return found.tolist()
+
     def span(self, name: str) -> slice:
         """The place of a span of the scratch memory."""
         at, size = self.code.about["rooms"][name]
@@ -182,10 +212,10 @@ class FlightMemory:
         return slice(at * lanes, (at + size) * lanes)
 
 
-def _table(tables: Sequence[Numbers], idle: Wall | GaussianPush | Gust | PathLeg) -> Numbers:
+def _table(tables: Sequence[Numbers], idle: Wall | GaussianPush | Gust | PathLeg, kind: Any) -> Numbers:
     """A table of all lanes: row i holds row i of every lane's table, an idle row where a lane has fewer."""
     lanes, numbers = len(tables), flat(idle)
-    woven = aligned(max(map(len, tables)) * len(numbers) * lanes)
+    woven = aligned(max(map(len, tables)) * len(numbers) * lanes, kind)
     rows = woven.reshape(-1, len(numbers), lanes)
     rows[:] = np.array(numbers)[:, None]
     for lane, own in enumerate(tables):
