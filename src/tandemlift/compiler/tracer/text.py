@@ -21,7 +21,8 @@ ATTRIBUTES = [
     f"attributes #1 = {{ nounwind noinline {WIDE} }}",
     f"attributes #2 = {{ nounwind noinline optsize minsize {WIDE} }}",
 ]
-DOUBLE_EPSILON, FLOAT_EPSILON = 2.0**-52, 2.0**-23
+# of a double and of a float: the distance from 1 to the next, and what rounds to whole numbers as it is added
+ROUNDING = {2.0**-52: 2.0**-23, 1.5 * 2.0**52: 1.5 * 2.0**23}
 SMALLEST, LARGEST = 2.0**-126, (2.0 - 2.0**-23) * 2.0**127  # normal floats
 INTEGER_OPS = {"add": operator.add, "mul": operator.mul}
 
@@ -232,9 +233,9 @@ def nearest_float(x: float) -> float:
     """The float that stands for a number in single precision.
 
     A number too small for a normal float becomes the smallest, as it guards a division, and one that is too large the
-    largest; the distance of doubles from 1 becomes that of floats.
+    largest; what belongs to the rounding of doubles becomes what belongs to that of floats.
     """
     if x == 0.0 or not math.isfinite(x):
         return x
-    size = FLOAT_EPSILON if x == DOUBLE_EPSILON else min(max(abs(x), SMALLEST), LARGEST)
+    size = ROUNDING.get(abs(x)) or min(max(abs(x), SMALLEST), LARGEST)
     return float(struct.unpack("<f", struct.pack("<f", math.copysign(size, x)))[0])
