@@ -23,7 +23,7 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array, flat, leaves
 from tandemlift.missions import MissionLike, mission_of
 from tandemlift.simulation.caller_values import checked_seed, count_of, held_inputs
-from tandemlift.simulation.preparation import LANES, leaf_offset
+from tandemlift.simulation.preparation import leaf_offset
 from tandemlift.simulation.preparation.memory import NEVER
 from tandemlift.simulation.results import SampleChannels
 
@@ -80,7 +80,7 @@ class Block(BlockReadings):
         starts = self._flights.starts
         self._memory = BlockOfFlights(
             p.loop_code,
-            [*starts, *[starts[-1]] * (-self.lanes % LANES)],
+            [*starts, *[starts[-1]] * (-self.lanes % p.lanes)],
             p.grid(1, 1),
             leaves(p.sample),
             (place.start, place.stop - place.start + (flag is not None)),
@@ -92,6 +92,7 @@ class Block(BlockReadings):
         self._ended_at = leaf_offset(p.model, "flight_state", "ended").at
         at, size = leaf_offset(p.model, "flight_state", "metrics")
         self._tallies, self._empty = slice(at, at + size), np.array(flat(p.model.flight_state.metrics))
+        self._numbers = starts[0].numbers.size
         self._k, self._due = 0, NEVER
         self._ended = EndedFlights(self._memory, self.lanes)
         self._steps, self._late = np.zeros((2, self.lanes), dtype=np.int64)
@@ -211,12 +212,14 @@ class Block(BlockReadings):
         memory, taken = self._memory, self._steps_taken
         late = np.flatnonzero(~self._ended.over & (taken == self._late))
         for lane in late.tolist():
-            place = lane // LANES, self._tallies, lane % LANES
-            self._early[lane], memory.flights[place] = memory.flights[place], self._empty
+            b, place = divmod(lane, memory.width)
+            numbers = memory.flights[b, :, place]
+            self._early[lane], numbers[self._tallies] = numbers[self._tallies], self._empty
+            numbers[self._numbers :] = 0.0  # what compensated sums left over
         done = np.flatnonzero(~self._ended.over & (taken == self._steps))
-        for b in np.unique(done // LANES).tolist():
-            here = done[done // LANES == b]
-            self._ended.last[:, here] = memory.sample_here(b)[:, here % LANES]
+        for b in np.unique(done // memory.width).tolist():
+            here = done[done // memory.width == b]
+            self._ended.last[:, here] = memory.sample_here(b)[:, here % memory.width]
         self._close(done)
 
     def _look_ahead(self) -> None:
