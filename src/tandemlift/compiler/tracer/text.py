@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import operator
+import platform
 import struct
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator
@@ -18,12 +19,13 @@ WIDE = '"prefer-vector-width"="512" "min-legal-vector-width"="512"'
 LONG = 8_000  # lines, from which on the instruction cache limits a function, which is then optimised for size
 ATTRIBUTES = [
     f"attributes #0 = {{ nounwind {WIDE} }}",
-    f"attributes #1 = {{ nounwind noinline {WIDE} }}",
-    f"attributes #2 = {{ nounwind noinline optsize minsize {WIDE} }}",
+    f"attributes #1 = {{ nounwind noinline alignstack=64 {WIDE} }}",
+    f"attributes #2 = {{ nounwind noinline optsize minsize alignstack=64 {WIDE} }}",
 ]
 # of a double and of a float: the distance from 1 to the next, and what rounds to whole numbers as it is added
 ROUNDING = {2.0**-52: 2.0**-23, 1.5 * 2.0**52: 1.5 * 2.0**23}
 SMALLEST, LARGEST = 2.0**-126, (2.0 - 2.0**-23) * 2.0**127  # normal floats
+IS_X86, FLUSH = platform.machine().lower() in ("x86_64", "amd64"), 0x8040  # MXCSR: results and operands too small are 0
 INTEGER_OPS = {"add": operator.add, "mul": operator.mul}
 
 
@@ -158,6 +160,21 @@ class Text(ABC):
         with self.scope():
             yield
         self.label(done)
+
+    @contextmanager
+    def without_tiny_numbers(self) -> Iterator[None]:
+        """Take floats below the smallest normal one as 0 on x86, which is many times slower with them."""
+        if self.real == "double" or not IS_X86:
+            yield
+            return
+        self.module.declared |= {f"declare void @llvm.x86.sse.{name}mxcsr(ptr)" for name in ("ld", "st")}
+        self._rooms += [f"  %{name} = alloca i32, align 4" for name in ("modes", "before")]
+        self.do("call void @llvm.x86.sse.stmxcsr(ptr %before)")
+        modes = self.op(f"or i32 {self.op('load i32, ptr %before, align 4')}, {FLUSH}")
+        self.do(f"store i32 {modes}, ptr %modes, align 4")
+        self.do("call void @llvm.x86.sse.ldmxcsr(ptr %modes)")
+        yield
+        self.do("call void @llvm.x86.sse.ldmxcsr(ptr %before)")
 
     def any(self, truth: str) -> str:
         """Whether a truth holds in any lane."""

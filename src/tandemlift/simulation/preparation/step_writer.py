@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from tandemlift.compiler.tracer import Function, Module, Place, double
 from tandemlift.core.types import leaves
 from tandemlift.simulation.loop.external_inputs import HALVES, SPAN
+from tandemlift.simulation.loop.random_numbers import MASK
 from tandemlift.simulation.loop.sources import HeldPart, delayed_spans, held_parts, leaf_offset
 from tandemlift.simulation.preparation.memory import AT, MEMORY, POINTERS, ScratchLayout
 from tandemlift.simulation.preparation.traced_step import Symbols, TracedStep
@@ -128,13 +129,18 @@ class StepWriter:
         """A function for Python, with the context as its only argument, that calls the internal one of that name."""
         f = Function(self.module, self.graph, self.lanes, f"i64 @{name}(ptr %c) #0")
         given = [f"ptr {self.context_word(f, word)}" for word in ("flight", "work")]
-        f.end("i64 " + f.op(f"call i64 @{name}_({', '.join(['ptr %c', *given])})"))
+        with f.without_tiny_numbers():
+            result = f.op(f"call i64 @{name}_({', '.join(['ptr %c', *given])})")
+        f.end(f"i64 {result}")
 
     def key_of(self, f: Function, keys: str) -> list[str]:
         """The two words of the key of each flight's random numbers: integers in single precision."""
-        exact = f"<{self.lanes} x double>"
+        exact, whole = (f"<{self.lanes} x {kind}>" for kind in ("double", "i64"))
         words = [f.load(keys, m, exact) for m in (0, 1)]
-        return words if self.real == "double" else [f.op(f"fptosi {exact} {x} to <{self.lanes} x i64>") for x in words]
+        if self.real == "double":
+            return words
+        found = [f.op(f"fptosi {exact} {x} to {whole}") for x in words]
+        return [f.op(f"and {whole} {x}, splat (i64 {MASK})") for x in found]  # which tells LLVM that they have 32 bits
 
     def call(self, f: Function, name: str, *more: str) -> None:
         """Call another internal function."""
