@@ -21,7 +21,7 @@ from tandemlift.missions.recording import engine_of
 from tandemlift.parts.controllers.registry import explained
 from tandemlift.simulation.caller_values import count_of
 from tandemlift.simulation.loop.running_metrics import EMPTY
-from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.plan import FlightPlan, with_precision
 from tandemlift.simulation.preparation import LANES, FlightMemory
 from tandemlift.simulation.preparation.memory import Numbers
 from tandemlift.simulation.results import RawResult, flight_of, metrics_of, take_metrics
@@ -65,26 +65,27 @@ def _fly_compiled(
     """
     p, count = flights[0], len(flights)
     in_block = count > 1 or p.single
-    lanes = [*flights, *[flights[-1]] * (p.lanes - count)] if in_block else flights
-    starts = [f.start() for f in lanes]
-    code = p.loop_code.loop(len(lanes), going, differ=p.loop_code.parts_that_differ(starts))
+    starts = [f.start() for f in flights]
+    starts += [starts[-1]] * (p.lanes - count) if in_block else []
+    lanes = len(starts)
+    code = p.loop_code.loop(lanes, going, differ=p.loop_code.parts_that_differ(starts))
     memory = FlightMemory(code, starts, p.grid(rows, every), leaves(p.sample))
-    began, early, like = time.perf_counter(), [EMPTY] * len(lanes), p.model.flight_state
-    states = memory.numbers.reshape(-1, len(lanes))[: leaves(like)]
+    began, early, like = time.perf_counter(), [EMPTY] * lanes, p.model.flight_state
+    states = memory.numbers.reshape(-1, lanes)[: leaves(like)]
     ended = dict[int, tuple[Numbers, int]]()
     if p.single:
         memory.halt(count)
     while True:
         for k in _stretches(p, memory, going):
             if k == p.late_step < p.steps:
-                early = take_metrics(memory.numbers, p.model, len(lanes))
+                early = take_metrics(memory.numbers, p.model, lanes)
             if progress:
                 progress(k, p.steps)
         ended |= {lane: (states[:, lane].copy(), memory.k) for lane in memory.halted(p.place("flight_state", "ended").at)}
         if not p.single or memory.k >= p.steps or len(ended) == count:
             break
     wall = (time.perf_counter() - began) / count
-    last = memory.work[memory.span("sample")].reshape(-1, len(lanes)) if in_block else memory.last[:, None]
+    last = memory.work[memory.span("sample")].reshape(-1, lanes) if in_block else memory.last[:, None]
     logs = [log.copy() for log in memory.log[:count]] if in_block else memory.log  # copies let go of all lanes
     finals = [ended.get(i, (states[:, i], min(memory.k, p.steps))) for i in range(count)]
     flown = [
@@ -116,7 +117,7 @@ def fly(mission: MissionLike, engine: str | None = None, *, progress: Progress |
     """
     mission = mission_of(mission)
     engine = engine_of(mission.person.recording) if engine is None else engine
-    p = FlightPlan(mission, engine)
+    p = FlightPlan(mission, engine, in_block=True)
     rows, body = p.steps // p.every + 1, body_of(p)
     with progress_or_own(mission.mission.name, progress, "steps") as shown:
         if body is not None or p.stepwise:
@@ -130,6 +131,7 @@ def fly_many(
     keep: Literal["flights", "metrics"] = "flights",
     threads: int | None = None,
     *,
+    precision: Literal["double", "single"] | None = None,
     refusals: bool = False,
     progress: Progress | None = None,
 ) -> list[Any]:
@@ -141,6 +143,7 @@ def fly_many(
         keep: "flights" for a list of `Flight`; "metrics" for a list of metrics only, in memory that does not grow with
             the number of steps.
         threads: number of threads; by default one for each processor.
+        precision: of all flights, in place of `mission.precision`.
         refusals: whether a mission that cannot be built gives its `InputError`, and the others are flown.
         progress: called with (flights flown, flights in all; of an iterator, those read so far); by default, a
             notebook shows a bar.
@@ -149,8 +152,8 @@ def fly_many(
         One entry for each mission, in the order given, bit-identical to that of a flight alone.
 
     Raises:
-        InputError: `missions` is one text, `keep` or `threads` is not one of the above, or a mission cannot be built
-            and `refusals` is false.
+        InputError: `missions` is one text, an argument is not one of the above, or a mission cannot be built, or not
+            in single precision, and `refusals` is false.
     """
     if isinstance(missions, (str, os.PathLike)):
         raise InputError(f"missions = {str(missions)!r}: must be a list, such as [{str(missions)!r}]")
@@ -158,7 +161,7 @@ def fly_many(
         raise InputError(f"keep = {keep!r}: must be 'flights' or 'metrics'")
     threads = (os.cpu_count() or 1) if threads is None else count_of("threads", threads)
     with progress_or_own("Flown", progress, "flights") as shown:
-        return _flown_by_threads(_FlightGroups(missions, refusals, shown), keep, threads)
+        return _flown_by_threads(_FlightGroups(missions, refusals, shown, precision), keep, threads)
 
 
 def _flown_by_threads(groups: _FlightGroups, keep: str, count: int) -> list[Any]:
@@ -235,14 +238,20 @@ class _FlightGroups:
         missions: an iterable, of which one mission is read after the other.
         refusals: whether an `InputError` is a result.
         progress: called with the flights that are finished, and all of them.
+        precision: of all flights; None for each mission's.
 
     Attributes:
         read: the number of missions read so far.
     """
 
     def __init__(
-        self, missions: Iterable[MissionLike | InputError], refusals: bool = False, progress: Progress | None = None
+        self,
+        missions: Iterable[MissionLike | InputError],
+        refusals: bool = False,
+        progress: Progress | None = None,
+        precision: str | None = None,
     ) -> None:
+        self._precision = precision
         self.read, self.refusals = 0, refusals
         self._finished, self._total = 0, len(missions) if isinstance(missions, Sized) else None
         self._groups, self._progress = self._grouped(missions), progress
@@ -276,7 +285,7 @@ class _FlightGroups:
         try:
             if isinstance(mission, InputError):
                 raise mission
-            return FlightPlan(mission_of(mission))
+            return FlightPlan(with_precision(mission_of(mission), self._precision), in_block=True)
         except InputError as error:
             if not self.refusals:
                 raise

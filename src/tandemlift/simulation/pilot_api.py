@@ -20,6 +20,7 @@ from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.pilot.pilot import PilotInput
 from tandemlift.parts.pilot.refusals import refusals_of
+from tandemlift.simulation.plan import check_double
 from tandemlift.simulation.preparation.memory import aligned
 from tandemlift.simulation.preparation.pilot_sampling import MEASURED, PilotData, pilot_code
 from tandemlift.simulation.preparation.start_pilot import start_pilot
@@ -51,6 +52,7 @@ class Pilot:
 
     def __init__(self, mission: MissionLike) -> None:
         mission = mission_of(mission)
+        check_double(mission, "a pilot alone computes in doubles")
         self._start = assembled_by_graph(mission, pilot_at_start)
         if type(self._start.parameters.controller) in control.interpreted:
             raise InputError(f"controller {mission.controller.name!r} is plain Python; write it as a law to use Pilot")

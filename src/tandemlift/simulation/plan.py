@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from tandemlift.core.caching import LastUsed
+from tandemlift.core.errors import InputError, shown
 from tandemlift.core.law import replaced
 from tandemlift.core.types import layout_and_numbers
 from tandemlift.core.vector import ZERO, each, layout
@@ -26,7 +27,31 @@ from tandemlift.simulation.preparation.traced_assembly import assembled_by_graph
 
 LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take about a second
 
+PRECISIONS = "double", "single"
 LOOP_CODE = LastUsed[LoopCode](32)  # of some megabytes each
+
+
+def check_double(mission: Mission, reason: str) -> None:
+    """Refuse single precision for a reason.
+
+    Raises:
+        InputError: the mission asks for it.
+    """
+    if mission.mission.precision == "single":
+        raise InputError(f"mission.precision = 'single': must be 'double' here, because {reason}")
+
+
+def with_precision(mission: Mission, precision: str | None) -> Mission:
+    """A mission in the precision that a caller asks for; in its own if None.
+
+    Raises:
+        InputError: there is no such precision.
+    """
+    if precision is None or precision == mission.mission.precision:
+        return mission
+    if precision not in PRECISIONS:
+        raise InputError(f"precision = {shown(precision)}: must be {' or '.join(map(repr, PRECISIONS))}")
+    return mission.model_copy(update={"mission": mission.mission.model_copy(update={"precision": precision})})
 
 
 class FlightPlan:
@@ -36,12 +61,17 @@ class FlightPlan:
         mission: from `load_mission`.
         engine: name of the body's engine.
         interactive: whether the caller of a step has inputs (`parts.interaction.caller_inputs`).
+        in_block: whether it is flown in a block, which alone may be in single precision.
 
     Raises:
-        InputError: the engine is unknown, or the mission cannot be built.
+        InputError: the engine is unknown, or the mission cannot be built, or needs double precision.
     """
 
-    def __init__(self, mission: Mission, engine: str = "compiled", *, interactive: bool = False) -> None:
+    def __init__(
+        self, mission: Mission, engine: str = "compiled", *, interactive: bool = False, in_block: bool = False
+    ) -> None:
+        if not in_block:
+            check_double(mission, "only fly, fly_many, Block, environments and studies compute in single precision")
         self.mission, self.engine, self.interactive = mission, engine, interactive
         self.steps = mission.mission.steps
         self.every = mission.mission.log_every
@@ -58,6 +88,13 @@ class FlightPlan:
         self.interpreted: tuple[Any, Any] | None = None
         if type(self.model.pilot.controller) in control.interpreted:
             self._detach_python_controller()
+        if engine != "compiled":
+            check_double(mission, f"the engine {engine!r} computes in doubles")
+        if self.interpreted is not None:
+            check_double(mission, f"the controller {mission.controller.name!r} is plain Python, which computes in doubles")
+        if mission.changes_in_flight:
+            what = "person.recording is flown again, bit by bit," if mission.person.recording else "changes in flight are flown"
+            check_double(mission, f"{what} in doubles")
 
     def _detach_python_controller(self) -> None:
         flight_state, pilot = self.model.flight_state, self.model.pilot

@@ -119,7 +119,7 @@ def fly_mission(mission: Mission, engine: str | None) -> Flight:
     from tandemlift.simulation.plan import FlightPlan
 
     try:
-        with progress_bar("Flying", "steps", shown=FlightPlan(mission).takes_long) as progress:
+        with progress_bar("Flying", "steps", shown=FlightPlan(mission, in_block=True).takes_long) as progress:
             return fly(mission, engine, progress=progress)
     except Exception as error:
         if (told := explained(error, mission.controller.name)) is error:

@@ -19,6 +19,7 @@ from tandemlift.flight.corridor_score import CorridorScore, score_of
 from tandemlift.missions import Mission, load_mission, tables_of
 from tandemlift.missions.recording import HAND_FILE, MAX_UNPACKED, MISSION_FILE, read_recording
 from tandemlift.simulation.fly import fly
+from tandemlift.simulation.plan import check_double
 
 FREE = ("mission.name", "mission.duration", "person.recording", "mission.fma")  # of each flight; rounding, of its page
 EQUAL = 1e-6  # s: scores are the same
@@ -137,6 +138,7 @@ def ranked(
     Raises:
         InputError: nothing was handed in.
     """
+    check_double(challenge, "a score is that of a flight in doubles")
     (paths, others), results = handed_in(folder), list[HandedIn]()
     keys = dict(dotted_values(tables_of(interactive_mission(challenge))))
     for path in paths:

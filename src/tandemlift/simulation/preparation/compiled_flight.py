@@ -23,6 +23,7 @@ from tandemlift.simulation.preparation.traced_step import TracedStep
 
 CALL = ("contexts", "first", "end", "stop", "actions", "rows", "lanes", "place", "halted")  # words of `fly_blocks`
 
+SELDOM = "before", "sample", "solving", "exact"  # parts of scratch memory that few steps use
 PARTS = FlightModel._fields[1:]  # those with parameters
 DRAWN = "sensors"  # the one with numbers that are drawn by the seed
 
@@ -117,6 +118,9 @@ def write_many_blocks(step: LoopWriter) -> None:
     with f.repeat(word["end"], word["first"]) as b:
         context = f.at(word["contexts"], f.integer("mul", b, len(WORDS)), "i64")
         work = f.load(context, AT["work"], "ptr")
+        following = f.integer("add", b, 1)
+        with f.when(f.op(f"icmp slt i64 {following}, {word['end']}")):
+            _fetch_ahead(step, f, f.at(word["contexts"], f.integer("mul", following, len(WORDS)), "i64"))
         with f.repeat(word["rows"]) as row:
             number = f.integer("add", f.integer("mul", row, word["lanes"]), f.integer("mul", b, step.lanes))
             given = f.op(f"load {vector}, ptr {f.at(word['actions'], number, step.real)}, align 8")
@@ -129,3 +133,14 @@ def write_many_blocks(step: LoopWriter) -> None:
         with f.when(step.is_halted(f, f.load(context, AT["flight"], "ptr"), work)):
             f.store(f.integer("add", f.load("%call", halted, "i64"), 1), "%call", halted, "i64")
     f.end("i64 0")
+
+
+def _fetch_ahead(step: LoopWriter, f: Function, context: str) -> None:
+    """Bring a block's state, and what each step uses of its scratch memory, close to the processor."""
+    f.module.declared.add("declare void @llvm.prefetch.p0(ptr, i32, i32, i32)")
+    used = [span for name, span in step.scratch.spans.items() if name not in SELDOM and span[1]]
+    for word, spans in (("flight", [(0, step.state_size), (step.numbers, len(step.traced.rests))]), ("work", used)):
+        memory = f.load(context, AT[word], "ptr")
+        for first, size in spans:
+            with f.repeat(first + size, first) as i:
+                f.do(f"call void @llvm.prefetch.p0(ptr {f.at(memory, i, step.vector)}, i32 0, i32 2, i32 1)")

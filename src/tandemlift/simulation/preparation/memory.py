@@ -128,7 +128,8 @@ class FlightMemory:
         self.numbers, self._context = shared or own
         self.ring, self.keys = aligned(starts[0].ring.size * lanes, self.kind), aligned(starts[0].keys.size * lanes)
         self.use(code)
-        self.log, self.last = np.zeros((lanes, grid.rows, columns)), np.full(columns, np.nan)
+        logs = 1 if all(start is starts[0] for start in starts) else lanes  # the same in all lanes
+        self.log, self.last = np.zeros((logs, grid.rows, columns)), np.full(columns, np.nan)
         arrays = (self.numbers, self.work, self.ring, grid.delays, self.keys, self.log, self.last)
         for word, array in zip(WORDS, arrays, strict=False):
             self.put(word, array.ctypes.data)
@@ -137,7 +138,7 @@ class FlightMemory:
         self._write_tables()
         self.rings = len(starts[0].ring)
         self.put("rings", self.rings)
-        self.put("stride", grid.rows * columns)
+        self.put("stride", grid.rows * columns * (logs > 1))
         self.put("steps", grid.steps)
         self.put("every", grid.every)
         self.put("show", NEVER)
@@ -208,7 +209,7 @@ class FlightMemory:
     def span(self, name: str) -> slice:
         """The place of a span of the scratch memory."""
         at, size = self.code.about["rooms"][name]
-        lanes = len(self.log)
+        lanes = len(self.starts)
         return slice(at * lanes, (at + size) * lanes)
 
 

@@ -25,6 +25,7 @@ from tandemlift.missions import MissionLike, mission_of
 from tandemlift.simulation.caller_values import checked_seed, count_of, held_inputs
 from tandemlift.simulation.preparation import leaf_offset
 from tandemlift.simulation.preparation.memory import NEVER
+from tandemlift.simulation.plan import with_precision
 from tandemlift.simulation.results import SampleChannels
 
 Actions = Literal["push", "thrusts", "velocity"]
@@ -45,6 +46,8 @@ class Block(BlockReadings):
             [N], or "velocity" of the reference (lanes, 3) [m/s].
         begin: time [s] at which a flight is handed over after a reset; until then it flies without actions, as through
             its lift.
+        precision: in place of `mission.precision`. In "single", readings and `actions` are float32, sixteen flights
+            share an instruction, and a flight equals that of `fly_many`.
 
     Attributes:
         mission: the mission.
@@ -67,10 +70,11 @@ class Block(BlockReadings):
         *,
         actions: Actions = "push",
         begin: float = 0.0,
+        precision: Literal["double", "single"] | None = None,
     ) -> None:
         if actions not in get_args(Actions):
             raise InputError(f"actions = {actions!r}: must be one of {', '.join(map(repr, get_args(Actions)))}")
-        self.mission, self.lanes = mission_of(mission), count_of("lanes", lanes)
+        self.mission, self.lanes = with_precision(mission_of(mission), precision), count_of("lanes", lanes)
         threads = (os.cpu_count() or 1) if threads is None else count_of("threads", threads)
         self._flights = Lanes(self.mission, self.lanes)
         p = self._p = self._flights.first

@@ -33,6 +33,7 @@ from tandemlift.pictures.report.page import Verdict, shown_figures, write_page
 from tandemlift.pictures.report.paper_report import check_typesetting, typeset
 from tandemlift.pictures.report.study.certificate_figures import certificate_captions, certificate_figures
 from tandemlift.pictures.report.study.words import command
+from tandemlift.simulation.plan import check_double
 
 PAGE, JSON, PDF, SOURCE = "certificate.html", "certificate.json", "certificate.pdf", "report.typ"
 MISSION = "mission.toml"
@@ -72,6 +73,7 @@ def certify(
             is missing (extra: certify).
     """
     mission = mission_of(mission)
+    check_double(mission, "a certificate is computed in doubles")
     for name in tiers:
         if name not in TIERS:
             raise unknown("tier", name, TIERS)
