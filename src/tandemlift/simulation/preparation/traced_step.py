@@ -35,11 +35,12 @@ from tandemlift.simulation.loop.external_inputs import (
     push_is_active,
     walls_are_due,
 )
-from tandemlift.simulation.loop.sources import held_parts, leaf_offset
+from tandemlift.simulation.loop.sources import leaf_offset
 from tandemlift.simulation.preparation.limit_solver import LimitProblem, limit_thrusts
 from tandemlift.simulation.preparation.templates import COMMAND, Templates
 
 Symbols = list[Symbol]
+UNCOMPENSATED = ("state", "sensing", "estimator", "detectors")  # parts of a flight's state
 MANY = 5  # quadrotors from which on sets are arrays in memory, and operations on them loops
 
 
@@ -155,13 +156,12 @@ class TracedStep:
             self.rests.append(g.input("moved", first + j))
 
     def _compensate_sums(self) -> None:
-        """Compensate the other sums of the state, but those of detectors, and those that wait for samples."""
-        model, g = self.templates.model, self.graph
-        held = {i for part in held_parts(model, self.templates.given.noise) for i in (*part.places, *part.copies)}
-        for i in range(leaf_offset(model, "flight_state", "detectors").at):
+        """Compensate the other sums of the state; estimators correct their own, and detectors count."""
+        g, flight_state = self.graph, self.templates.model.flight_state
+        spans = [leaf_offset(flight_state, name) for name in flight_state._fields if name not in UNCOMPENSATED]
+        for i in [i for at, size in spans for i in range(at, at + size)]:
             nodes = self.next_state[i].node, g.input("fly", i).node, g.input("rest", len(self.rests)).node
-            found = None if i in held else compensated(g, *nodes)
-            if found:
+            if found := compensated(g, *nodes):
                 self.next_state[i] = Symbol(g, found.value, "f")
                 self.rests.append(Symbol(g, found.rest, "f"))
 
