@@ -104,7 +104,7 @@ class FlightMemory:
         starts: a flight for each lane.
         grid: of time steps, the same for all lanes.
         columns: numbers of a sample.
-        shared: arrays in which its numbers and its context shall stand; by default, arrays of its own.
+        shared: arrays in which its numbers, its context and its scratch memory shall stand; by default, its own.
 
     Attributes:
         numbers: of all flights, interleaved: number i of lane l stands at i · lanes + l.
@@ -120,14 +120,16 @@ class FlightMemory:
         starts: Sequence[FlightStart],
         grid: TimeGrid,
         columns: int,
-        shared: tuple[Numbers, Words] | None = None,
+        shared: tuple[Numbers, Words, Numbers] | None = None,
     ) -> None:
         self.grid, self.k, self.starts, lanes, self.kind = grid, 0, list(starts), len(starts), starts[0].numbers.dtype
         size = starts[0].numbers.size + code.about["rests"]
-        own = aligned(size * lanes, self.kind), np.zeros(len(WORDS), dtype=np.int64)
-        self.numbers, self._context = shared or own
+        self.numbers, self._context, work = shared or (
+            *(aligned(size * lanes, self.kind), np.zeros(len(WORDS), dtype=np.int64)),
+            aligned(code.about["size"] * lanes, self.kind),
+        )
         self.ring, self.keys = aligned(starts[0].ring.size * lanes, self.kind), aligned(starts[0].keys.size * lanes)
-        self.use(code)
+        self.use(code, work)
         logs = 1 if all(start is starts[0] for start in starts) else lanes  # the same in all lanes
         self.log, self.last = np.zeros((logs, grid.rows, columns)), np.full(columns, np.nan)
         arrays = (self.numbers, self.work, self.ring, grid.delays, self.keys, self.log, self.last)
@@ -145,9 +147,9 @@ class FlightMemory:
         self._context.view(np.float64)[AT["dt"]] = grid.dt
         self.address = self._context.ctypes.data
 
-    def use(self, code: Code) -> None:
-        """Fly on in other code."""
-        self.code, self.work = code, aligned(code.about["size"] * len(self.starts), self.kind)
+    def use(self, code: Code, work: Numbers) -> None:
+        """Fly on in other code, with other scratch memory."""
+        self.code, self.work = code, work
         self.put("work", self.work.ctypes.data)
         self.put("fresh", 1)
 

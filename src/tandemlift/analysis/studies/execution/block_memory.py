@@ -57,9 +57,10 @@ class BlockOfFlights:
         apart = lanes + width  # no power of two, so that the columns share no place in the processor's cache
         self.sample = aligned(columns * apart, kind).reshape(columns, apart)[:, :lanes]
         self.actions = aligned(held[1] * lanes, kind).reshape(held[1], lanes)
+        shared = zip(self.flights.reshape(blocks, -1), self._contexts, self._scratch(), strict=True)
         self.blocks = [
-            FlightMemory(self.code, starts[b * width : (b + 1) * width], grid, columns, (numbers.reshape(-1), context))
-            for b, (numbers, context) in enumerate(zip(self.flights, self._contexts, strict=True))
+            FlightMemory(self.code, starts[b * width : (b + 1) * width], grid, columns, own)
+            for b, own in enumerate(shared)
         ]
         for b, memory in enumerate(self.blocks):
             memory.put("shown", self.sample[:, b * width :].ctypes.data)
@@ -72,6 +73,11 @@ class BlockOfFlights:
             [self._contexts.ctypes.data, 0, 0, 0, self.actions.ctypes.data, held[1], lanes, held[0], 0]
         )
         self._find_places()
+
+    def _scratch(self) -> Numbers:
+        """Scratch memory of all blocks, in one piece: NumPy asks for large pages of it."""
+        blocks, size = len(self.flights), self.code.about["size"] * self.width
+        return aligned(blocks * size, self.flights.dtype).reshape(blocks, size)
 
     def _find_places(self) -> None:
         """Find what stands in the scratch memory of the blocks."""
@@ -87,8 +93,8 @@ class BlockOfFlights:
         self._unsure.clear()
         if not differ <= set(self.code.about["own"]):
             self.code = self._loop_code.loop(self.width, differ=PARTS)
-            for memory in self.blocks:
-                memory.use(self.code)
+            for memory, work in zip(self.blocks, self._scratch(), strict=True):
+                memory.use(self.code, work)
             self._find_places()
 
     @property
