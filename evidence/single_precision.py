@@ -2,10 +2,10 @@
 
 python evidence/single_precision.py [--families 125] [--members 8] [--seed 16] [--first 0] [--out FILE.jsonl]
 
-The missions are those of `fly_random_missions.py`. Two flights agree if outcome and kinds of findings are the same. Where
-they do not, the mission is flown in double precision with a mass that differs by 1e-12 to 1e-6 of itself: if one of these
-flights ends as the one in single precision, rounding decides the mission in any precision. Rows are written as they come;
-families whose rows FILE.jsonl holds are not flown again, so the same command resumes.
+The missions are those of `fly_random_missions.py`. Two flights agree if outcome and kinds of findings are the same.
+Where they do not, the mission is flown in double precision with a mass that differs by 1e-12 to 1e-6 of itself: if one
+of these flights ends as the one in single precision, rounding decides the mission in any precision. Rows are written as
+they come; families whose rows FILE.jsonl holds are not flown again, so the same command resumes.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ def compared(seed: int, family: int, members: int) -> Iterator[dict[str, Any]]:
     ]
     for one, double, single in zip(drawn, *flown, strict=True):
         row = {"family": family, "member": one.member, "base": one.base, "double": told(double), "single": told(single)}
-        if REFUSED != row["single"]["outcome"] and not agrees(row):
+        if row["single"]["outcome"] != REFUSED and not agrees(row):
             scale = one.mission.plant.mass_scale
             nearby = [changed(one.mission, "plant.mass_scale", scale * (1.0 + more)) for more in NEARBY]
             row["nearby"] = [told(flight) for flight in tl.fly_many(nearby, "metrics", threads=1)]
@@ -95,7 +95,7 @@ def summary(rows: list[dict[str, Any]]) -> str:
     absolute = np.array([abs(b - a) for a, b in pairs if a < LEAST])
     lines = [
         f"{len(rows)} missions; {len(refused)} that single precision refuses; {len(flown)} flown in both.",
-        f"Same outcome and kinds of findings: {len(same)} of {len(flown)}, {100 * len(same) / max(len(flown), 1):.2f} %.",
+        f"Same outcome and kinds of findings: {len(same)} of {len(flown)}, {len(same) / max(len(flown), 1):.2%}.",
         f"Of the other {len(flown) - len(same)}, rounding decides {sum(map(explained, others))}.",
     ]
     if relative.size:

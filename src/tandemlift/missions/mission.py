@@ -82,15 +82,9 @@ class MissionTable(Table):
     fma: bool = key(
         True,
         None,
-        "whether a·b + c is rounded once, which is fastest; false gives the same bits on every machine, in "
-        "WebAssembly and in C",
+        "whether a·b + c is rounded once, which is fastest; false gives the same bits on every machine, as in C",
     )
-    precision: Literal["double", "single"] = key(
-        "double",
-        None,
-        "precision of the numbers of the flight; single flies sixteen flights at once in place of eight, and agrees "
-        "with double to a millimetre or so",
-    )
+    precision: Literal["double", "single"] = key("double", None, "of the numbers; single flies 16 flights at once")
 
     @property
     def steps(self) -> int:

@@ -13,14 +13,13 @@ from tandemlift.core.errors import InputError, shown
 from tandemlift.core.refusals import Refusals
 from tandemlift.core.types import Array, flat, leaves, unflat
 from tandemlift.core.vector import ZERO, Absent, Quat
-from tandemlift.missions import Mission, MissionLike, mission_of
+from tandemlift.missions import Mission, MissionLike, check_double, mission_of
 from tandemlift.parts.controllers import control
 from tandemlift.parts.interaction.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.pilot.pilot import PilotInput
 from tandemlift.parts.pilot.refusals import refusals_of
-from tandemlift.simulation.plan import check_double
 from tandemlift.simulation.preparation.memory import aligned
 from tandemlift.simulation.preparation.pilot_sampling import MEASURED, PilotData, pilot_code
 from tandemlift.simulation.preparation.start_pilot import start_pilot

@@ -9,49 +9,32 @@ from typing import Any
 import numpy as np
 
 from tandemlift.core.caching import LastUsed
-from tandemlift.core.errors import InputError, shown
 from tandemlift.core.law import replaced
 from tandemlift.core.types import layout_and_numbers
 from tandemlift.core.vector import ZERO, each, layout
 from tandemlift.engines.registry import engine_named
 from tandemlift.flight.record import LATE
-from tandemlift.missions import Mission
+from tandemlift.missions import Mission, check_double
 from tandemlift.parts.controllers import NoMemory, control
 from tandemlift.parts.interaction.caller_inputs import CallerInput, OutsidePush
 from tandemlift.parts.interaction.requests import ReferenceVelocity
 from tandemlift.simulation.loop.log_sample import Sample
-from tandemlift.simulation.preparation import LANES, FlightStart, LeafSpan, LoopCode, PythonController, TimeGrid, leaf_offset
-from tandemlift.simulation.preparation.memory import in_floats
+from tandemlift.simulation.preparation import (
+    LANES,
+    FlightStart,
+    LeafSpan,
+    LoopCode,
+    PythonController,
+    TimeGrid,
+    leaf_offset,
+)
 from tandemlift.simulation.preparation.assemble import assemble
+from tandemlift.simulation.preparation.memory import in_floats
 from tandemlift.simulation.preparation.traced_assembly import assembled_by_graph
 
 LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take about a second
 
-PRECISIONS = "double", "single"
 LOOP_CODE = LastUsed[LoopCode](32)  # of some megabytes each
-
-
-def check_double(mission: Mission, reason: str) -> None:
-    """Refuse single precision for a reason.
-
-    Raises:
-        InputError: the mission asks for it.
-    """
-    if mission.mission.precision == "single":
-        raise InputError(f"mission.precision = 'single': must be 'double' here, because {reason}")
-
-
-def with_precision(mission: Mission, precision: str | None) -> Mission:
-    """A mission in the precision that a caller asks for; in its own if None.
-
-    Raises:
-        InputError: there is no such precision.
-    """
-    if precision is None or precision == mission.mission.precision:
-        return mission
-    if precision not in PRECISIONS:
-        raise InputError(f"precision = {shown(precision)}: must be {' or '.join(map(repr, PRECISIONS))}")
-    return mission.model_copy(update={"mission": mission.mission.model_copy(update={"precision": precision})})
 
 
 class FlightPlan:
@@ -91,9 +74,15 @@ class FlightPlan:
         if engine != "compiled":
             check_double(mission, f"the engine {engine!r} computes in doubles")
         if self.interpreted is not None:
-            check_double(mission, f"the controller {mission.controller.name!r} is plain Python, which computes in doubles")
+            check_double(
+                mission, f"the controller {mission.controller.name!r} is plain Python, which computes in doubles"
+            )
         if mission.changes_in_flight:
-            what = "person.recording is flown again, bit by bit," if mission.person.recording else "changes in flight are flown"
+            what = (
+                "person.recording is flown again, bit by bit,"
+                if mission.person.recording
+                else "changes in flight are flown"
+            )
             check_double(mission, f"{what} in doubles")
 
     def _detach_python_controller(self) -> None:
@@ -153,7 +142,9 @@ class FlightPlan:
     def loop_code(self) -> LoopCode:
         """The compiled loops of this variant."""
         key = self.variant, replaced()
-        return LOOP_CODE.of(key, lambda: LoopCode(self.model, self.given, fuses=self.mission.mission.fma, single=self.single))
+        return LOOP_CODE.of(
+            key, lambda: LoopCode(self.model, self.given, fuses=self.mission.mission.fma, single=self.single)
+        )
 
     def start(self) -> FlightStart:
         """The flight at its first step, as input of a compiled loop."""

@@ -13,8 +13,7 @@ from tandemlift.analysis.studies.design.draws import absolute, dimensions_of, dr
 from tandemlift.apps.export.gymnasium_tasks import TASKS, ActionLevel, LearningTask, Level
 from tandemlift.core.errors import InputError, extra, shown, suggestion
 from tandemlift.core.types import Array
-from tandemlift.missions import load_mission, tables_of
-from tandemlift.simulation.plan import with_precision
+from tandemlift.missions import load_mission, tables_of, with_precision
 
 with extra("gymnasium", "an environment for learning"):
     import gymnasium

@@ -16,10 +16,9 @@ from tandemlift.core.errors import InputError, shown, without_flight_warnings
 from tandemlift.core.files import toml_tables
 from tandemlift.core.types import Progress
 from tandemlift.flight.corridor_score import CorridorScore, score_of
-from tandemlift.missions import Mission, load_mission, tables_of
+from tandemlift.missions import Mission, check_double, load_mission, tables_of
 from tandemlift.missions.recording import HAND_FILE, MAX_UNPACKED, MISSION_FILE, read_recording
 from tandemlift.simulation.fly import fly
-from tandemlift.simulation.plan import check_double
 
 FREE = ("mission.name", "mission.duration", "person.recording", "mission.fma")  # of each flight; rounding, of its page
 EQUAL = 1e-6  # s: scores are the same

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from tandemlift.compiler import single as single  # for floats
 from tandemlift.compiler.machine_code import machine
 from tandemlift.compiler.tracer.fused import traced
 from tandemlift.compiler.tracer.graph import Graph, symbols

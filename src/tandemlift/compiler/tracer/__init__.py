@@ -1,10 +1,10 @@
 """The tracer of the laws: it writes them as a graph, and the graph as LLVM text.
 
 `symbol` and `graph` build the graph; `fused` makes the copy of a law that is traced; `elementary` has the functions
-without a machine instruction, `elementary_single` their polynomials for floats; `llvm` writes the graph as text, which `machine_code` compiles.
+without a machine instruction; `llvm` writes the graph as text, which `machine_code` compiles.
 """
 
-from tandemlift.compiler.tracer import elementary, elementary_single  # give symbols their functions
+from tandemlift.compiler.tracer import elementary  # gives symbols their functions
 from tandemlift.compiler.tracer.fused import rounded_twice, traced, tracer
 from tandemlift.compiler.tracer.graph import LEAVES, Graph, symbols, written_out
 from tandemlift.compiler.tracer.llvm import Function
@@ -22,7 +22,6 @@ __all__ = [
     "TraceError",
     "double",
     "elementary",
-    "elementary_single",
     "refused",
     "rounded_twice",
     "symbols",

@@ -27,8 +27,8 @@ LAW: ContextVar[Callable[..., Any] | None] = ContextVar("law", default=None)  # 
 class Graph:
     """Nodes by number, in the order of their creation: arguments come first.
 
-    `laws`: which law made each first. `uniform`: for kinds of inputs, whether each node depends on no other. `real`: the
-    type of its numbers in machine code, "double" or "float".
+    `laws`: which law made each first. `uniform`: for kinds of inputs, whether each node depends on no other. `real`:
+    the type of its numbers in machine code, "double" or "float".
     """
 
     def __init__(self, rolls_from: int = 0, real: str = "double") -> None:

@@ -11,19 +11,16 @@ import numpy as np
 from tandemlift.compiler.machine_code import machine
 from tandemlift.compiler.machine_code.code import Code, Written
 from tandemlift.compiler.machine_code.store import key_of
-from tandemlift.compiler.tracer import Function
 from tandemlift.core.progress import always
+from tandemlift.simulation.blocks.many_blocks import write_many_blocks
 from tandemlift.simulation.loop.external_inputs import LANES
 from tandemlift.simulation.loop.sources import LeafSpan, delayed_spans, leaf_offset
 from tandemlift.simulation.loop.step import FlightModel, StepInputs
 from tandemlift.simulation.preparation.loops import LoopWriter
-from tandemlift.simulation.preparation.memory import AT, WORDS, FlightStart
+from tandemlift.simulation.preparation.memory import AT, FlightStart
 from tandemlift.simulation.preparation.templates import templates_from
 from tandemlift.simulation.preparation.traced_step import TracedStep
 
-CALL = ("contexts", "first", "end", "stop", "actions", "rows", "lanes", "place", "halted")  # words of `fly_blocks`
-
-SELDOM = "before", "sample", "solving", "exact"  # parts of scratch memory that few steps use
 PARTS = FlightModel._fields[1:]  # those with parameters
 DRAWN = "sensors"  # the one with numbers that are drawn by the seed
 
@@ -98,49 +95,8 @@ class LoopCode:
             step = LoopWriter(self.traced, lanes, alike=[i for at, size in alike for i in range(at, at + size)])
             text = step.write_loop() if what == "loop" else step.write_parts(bool(number))
             if lanes > 1:
-                write_many_blocks(step)
+                write_many_blocks(step, AT)
                 text = step.module.text
             spans = {name: span for name, span in step.scratch.spans.items() if "_" not in name}
             about = {"size": step.scratch.size, "rooms": spans, "own": own, "rests": len(self.traced.rests)}
             return Written(text, about)
-
-
-def write_many_blocks(step: LoopWriter) -> None:
-    """`fly_blocks`: hand the caller's actions to some blocks, and fly each on to a step, or to where a flight halts it.
-
-    `halted` counts the blocks that a flight halts.
-    """
-    f = Function(step.module, step.graph, 1, "i64 @fly_blocks(ptr %call) #0")
-    word = {
-        name: f.load("%call", i, "ptr" if name in ("contexts", "actions") else "i64") for i, name in enumerate(CALL)
-    }
-    vector, halted = step.vector, CALL.index("halted")
-    with f.repeat(word["end"], word["first"]) as b:
-        context = f.at(word["contexts"], f.integer("mul", b, len(WORDS)), "i64")
-        work = f.load(context, AT["work"], "ptr")
-        following = f.integer("add", b, 1)
-        with f.when(f.op(f"icmp slt i64 {following}, {word['end']}")):
-            _fetch_ahead(step, f, f.at(word["contexts"], f.integer("mul", following, len(WORDS)), "i64"))
-        with f.repeat(word["rows"]) as row:
-            number = f.integer("add", f.integer("mul", row, word["lanes"]), f.integer("mul", b, step.lanes))
-            given = f.op(f"load {vector}, ptr {f.at(word['actions'], number, step.real)}, align 8")
-            f.store(given, work, f.integer("add", row, word["place"]), vector)
-        f.store(word["stop"], context, AT["stop"], "i64")
-        f.store(f.integer("sub", word["stop"], 1), context, AT["show"], "i64")
-        reached = f.op(f"call i64 @fly(ptr {context})")
-        f.store(reached, context, AT["k"], "i64")
-        f.store("0", context, AT["fresh"], "i64")
-        with f.when(step.is_halted(f, f.load(context, AT["flight"], "ptr"), work)):
-            f.store(f.integer("add", f.load("%call", halted, "i64"), 1), "%call", halted, "i64")
-    f.end("i64 0")
-
-
-def _fetch_ahead(step: LoopWriter, f: Function, context: str) -> None:
-    """Bring a block's state, and what each step uses of its scratch memory, close to the processor."""
-    f.module.declared.add("declare void @llvm.prefetch.p0(ptr, i32, i32, i32)")
-    used = [span for name, span in step.scratch.spans.items() if name not in SELDOM and span[1]]
-    for word, spans in (("flight", [(0, step.state_size), (step.numbers, len(step.traced.rests))]), ("work", used)):
-        memory = f.load(context, AT[word], "ptr")
-        for first, size in spans:
-            with f.repeat(first + size, first) as i:
-                f.do(f"call void @llvm.prefetch.p0(ptr {f.at(memory, i, step.vector)}, i32 0, i32 2, i32 1)")

@@ -10,9 +10,9 @@ import functools
 from collections.abc import Callable
 
 from tandemlift.compiler.tracer import LEAVES, Function, Place, Symbol, double
+from tandemlift.simulation.blocks.limit_search import write_limits, write_solver
 from tandemlift.simulation.loop.external_inputs import SPAN
 from tandemlift.simulation.preparation import precompute
-from tandemlift.simulation.preparation.limit_solver import write_limits, write_solver
 from tandemlift.simulation.preparation.step_end import write_early, write_estimates, write_next_state, write_sample
 from tandemlift.simulation.preparation.step_writer import StepWriter
 from tandemlift.simulation.preparation.traced_step import Symbols
@@ -136,7 +136,9 @@ class LoopWriter(StepWriter):
         f = self.function("fly_", result="i64")
         begin, stop, steps = self.context_word(f, "k"), self.context_word(f, "stop"), self.context_word(f, "steps")
         kept = self.prepare(
-            f, begin, [*self.traced.next_state, *self.traced.rests, *self.traced.sample, *self.body_roots(), *self.limit_roots()]
+            f,
+            begin,
+            [*self.traced.next_state, *self.traced.rests, *self.traced.sample, *self.body_roots(), *self.limit_roots()],
         )
         f.label("first")
         f.label("loop")

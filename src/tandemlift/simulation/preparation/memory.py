@@ -75,10 +75,7 @@ def in_floats(numbers: Any) -> NDArray[np.float32]:
 
 
 class FlightStart(NamedTuple):
-    """A flight at its first step: numbers, tables, delay lines (rows × numbers), and the key of its random numbers.
-
-    `numbers` are doubles, or floats where it flies in single precision.
-    """
+    """A flight at its first step: numbers, in its precision, tables, delay lines (rows × numbers), key of its noise."""
 
     numbers: Numbers
     tables: InputTables
@@ -169,7 +166,9 @@ class FlightMemory:
             rows[: own.size], rows[own.size :] = own.ravel(), 0.0
 
     def _write_tables(self) -> None:
-        self._tables = [_table(tables, idle, self.kind) for tables, idle in zip(self._tables_of_lanes, IDLE, strict=True)]
+        self._tables = [
+            _table(tables, idle, self.kind) for tables, idle in zip(self._tables_of_lanes, IDLE, strict=True)
+        ]
         for word, table in zip(TABLES, self._tables, strict=True):
             self.put(word, table.ctypes.data)
         for word, tables in zip(COUNTS, self._tables_of_lanes, strict=True):
@@ -190,23 +189,6 @@ class FlightMemory:
         self.k = self.code.free["fly"](self.address)
         self.put("fresh", 0)
         return self.k
-
-    def halt(self, count: int) -> None:
-        """Let a block halt where one of its first flights ends."""
-        sample = self.work[self.span("sample")]
-        self.work[self.span("halts")][:count] = 1.0
-        self.put("shown", sample.ctypes.data)  # the sample of the step in which it ends
-        self.put("apart", 1)
-
-    def halted(self, ended_at: int) -> list[int]:
-        """The lanes that have just halted a block, which halt it no more; `ended_at`: the number that tells the end."""
-        if len(self.starts) == 1:
-            return []
-        halts, lanes = self.work[self.span("halts")], len(self.starts)
-        ended = self.numbers[ended_at * lanes : (ended_at + 1) * lanes] != 0.0
-        found = np.flatnonzero((halts != 0.0) & ended)
-        halts[found] = 0.0
-        return found.tolist()
 
     def span(self, name: str) -> slice:
         """The place of a span of the scratch memory."""

@@ -10,7 +10,8 @@ from tandemlift.compiler.tracer import Function, Module, Place, symbols, tracer,
 from tandemlift.core.vector import Absent
 from tandemlift.parts.pilot.pilot import PilotMemory, PilotParameters, decide
 from tandemlift.parts.rotors.allocation import ConstrainedAllocation
-from tandemlift.simulation.preparation.limit_solver import limit_thrusts, write_limits, write_solver
+from tandemlift.simulation.blocks.limit_search import write_limits, write_solver
+from tandemlift.simulation.preparation.limit_solver import limit_thrusts
 from tandemlift.simulation.preparation.traced_step import check_layout, graph_for
 
 POINTERS = ("numbers", "pilot_input", "thrusts", "work")  # words of the context, and behind them the step [s] as bits
@@ -80,7 +81,7 @@ class PilotSampler:
         if self.refuses:
             write_refusal(f)
         if self.limits:
-            write_limits(f, self.limits, 0)
+            write_limits(f, self.limits, 0, 0)
         f.values(self.after)
         f.put("%thrusts", 0, self.thrusts)
         f.put("%numbers", 0, self.after, "pilot")

@@ -40,7 +40,10 @@ class StepWriter:
         self.delayed = delayed_spans(self.templates.model)
         self.ended = leaf_offset(self.templates.model, "flight_state", "ended").at
         self.touches = leaf_offset(self.templates.model, "flight_state", "touches")
-        self.moved_touches, self.moved_end = leaf_offset(self.templates.moved, "touches").at, leaves(self.templates.moved)
+        self.moved_touches, self.moved_end = (
+            leaf_offset(self.templates.moved, "touches").at,
+            leaves(self.templates.moved),
+        )
         g, roots = self.graph, [s.node for s in self.all_roots]
         self.has_gusts = any(g.ops[n] == "in" and g.args[n][0] == "gust" for n in g.needed(roots))
         self._lay_out_scratch()

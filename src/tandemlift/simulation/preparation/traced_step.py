@@ -11,7 +11,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from tandemlift.compiler.tracer.compensation import compensated
+from tandemlift.compiler.single import compensated
 from tandemlift.compiler.tracer import Graph, Symbol, TraceError, refused, symbols, tracer, written_out
 from tandemlift.core.algebra import chosen, where
 from tandemlift.core.types import leaves
@@ -96,9 +96,7 @@ class TracedStep:
     # laws of a flight; a vehicle alone has others
     pilot, end = staticmethod(step.run_pilot), staticmethod(step.finish_sample)
 
-    def __init__(
-        self, templates: Templates, *, fuses: bool = True, rolls: bool = True, single: bool = False
-    ) -> None:
+    def __init__(self, templates: Templates, *, fuses: bool = True, rolls: bool = True, single: bool = False) -> None:
         self.templates, self.trace = templates, tracer(fuses)
         plant = templates.model.plant
         quadrotors = len(plant.frame.mass)
@@ -144,7 +142,10 @@ class TracedStep:
 
     def _compensate_position(self) -> None:
         """Compensate the sum of the position in all forms of the body; `moved` brings what it leaves over."""
-        (at, size), first = leaf_offset(self.templates.model, "flight_state", "state", "position"), leaves(self.templates.moved)
+        (at, size), first = (
+            leaf_offset(self.templates.model, "flight_state", "state", "position"),
+            leaves(self.templates.moved),
+        )
         g, bodies = self.graph, (self.body_in_contact, self.body_on_feet, self.body_in_free_air)
         for j in range(size):
             for body in filter(None, bodies):

@@ -21,11 +21,10 @@ from tandemlift.analysis.studies.execution.lanes import (
 )
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array, flat, leaves
-from tandemlift.missions import MissionLike, mission_of
+from tandemlift.missions import MissionLike, mission_of, with_precision
 from tandemlift.simulation.caller_values import checked_seed, count_of, held_inputs
 from tandemlift.simulation.preparation import leaf_offset
 from tandemlift.simulation.preparation.memory import NEVER
-from tandemlift.simulation.plan import with_precision
 from tandemlift.simulation.results import SampleChannels
 
 Actions = Literal["push", "thrusts", "velocity"]

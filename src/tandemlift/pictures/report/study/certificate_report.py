@@ -27,13 +27,12 @@ from tandemlift.core.errors import InputError, extra, unknown
 from tandemlift.core.files import DATA, __version__, atomic_write
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Progress
-from tandemlift.missions import MissionLike, format_toml, mission_of, tables_of
+from tandemlift.missions import MissionLike, check_double, format_toml, mission_of, tables_of
 from tandemlift.pictures.drawing.style import save
 from tandemlift.pictures.report.page import Verdict, shown_figures, write_page
 from tandemlift.pictures.report.paper_report import check_typesetting, typeset
 from tandemlift.pictures.report.study.certificate_figures import certificate_captions, certificate_figures
 from tandemlift.pictures.report.study.words import command
-from tandemlift.simulation.plan import check_double
 
 PAGE, JSON, PDF, SOURCE = "certificate.html", "certificate.json", "certificate.pdf", "report.typ"
 MISSION = "mission.toml"

@@ -57,7 +57,11 @@ def _increment(graph: Graph, node: int, old: int, rest: int) -> int | None:
         return None
     others = [a for i, a in enumerate(args) if i not in sums]
     forgets = op != "select" and any(old in (a, *_operands(graph, a)) for a in others)
-    if len(sums) > 1 and op != "select" or forgets or (op != "select" and all(graph.ops[a] == "const" for a in others)):
+    if (
+        (len(sums) > 1 and op != "select")
+        or forgets
+        or (op != "select" and all(graph.ops[a] == "const" for a in others))
+    ):
         return None
     return graph.node(op, tuple(sums.get(i, a) for i, a in enumerate(args)), "f")
 

@@ -1,0 +1,1 @@
+"""Blocks of flights: which fly together, and the text of what a block does besides its steps."""
