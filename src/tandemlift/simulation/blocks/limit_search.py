@@ -7,7 +7,7 @@ from typing import Any
 from tandemlift.compiler.tracer import Function, Module, Place
 
 
-def write_limits(f: Function, needs: Any, at: int, exact: int) -> None:
+def write_limits(f: Function, needs: Any, at: int, exact: int = 0) -> None:
     """Write thrusts within limits and the working set to scratch memory, behind the problem.
 
     Args:

@@ -10,7 +10,8 @@ import functools
 from collections.abc import Callable
 
 from tandemlift.compiler.tracer import LEAVES, Function, Place, Symbol, double
-from tandemlift.simulation.blocks.limit_search import write_limits, write_solver
+from tandemlift.simulation.blocks.limit_search import write_limits as write_limits
+from tandemlift.simulation.blocks.limit_search import write_solver as write_solver
 from tandemlift.simulation.loop.external_inputs import SPAN
 from tandemlift.simulation.preparation import precompute
 from tandemlift.simulation.preparation.step_end import write_early, write_estimates, write_next_state, write_sample

@@ -21,7 +21,7 @@ from tandemlift.parts.mechanics.wall_geometry import Wall
 from tandemlift.parts.mechanics.wind import Gust
 from tandemlift.simulation.loop.external_inputs import ROWS, InputTables
 
-Numbers = NDArray[np.float64]
+Numbers = NDArray[Any]  # doubles, or floats
 Words = NDArray[np.int64]
 IDLE = ROWS._replace(pushes=ROWS.pushes._replace(per_sigma=1.0))  # rows without effect
 NEVER = -1  # the number of no step
@@ -121,10 +121,8 @@ class FlightMemory:
     ) -> None:
         self.grid, self.k, self.starts, lanes, self.kind = grid, 0, list(starts), len(starts), starts[0].numbers.dtype
         size = starts[0].numbers.size + code.about["rests"]
-        self.numbers, self._context, work = shared or (
-            *(aligned(size * lanes, self.kind), np.zeros(len(WORDS), dtype=np.int64)),
-            aligned(code.about["size"] * lanes, self.kind),
-        )
+        own = [aligned(n * lanes, self.kind) for n in (size, code.about["size"])]
+        self.numbers, self._context, work = shared or (own[0], np.zeros(len(WORDS), dtype=np.int64), own[1])
         self.ring, self.keys = aligned(starts[0].ring.size * lanes, self.kind), aligned(starts[0].keys.size * lanes)
         self.use(code, work)
         logs = 1 if all(start is starts[0] for start in starts) else lanes  # the same in all lanes

@@ -81,7 +81,7 @@ class PilotSampler:
         if self.refuses:
             write_refusal(f)
         if self.limits:
-            write_limits(f, self.limits, 0, 0)
+            write_limits(f, self.limits, 0)
         f.values(self.after)
         f.put("%thrusts", 0, self.thrusts)
         f.put("%numbers", 0, self.after, "pilot")
