@@ -13,10 +13,7 @@ from tandemlift.core.errors import InputError
 
 SINGLE = {"mission.precision": "single"}
 LOST = {"quadrotor": 1, "rotor": 1, "time": 5.0}
-FALLS = {  # flights that crash at different steps, and one that goes on
-    "mission.duration": 9.0,
-    "faults": [{**LOST, "rotor": rotor} for rotor in (1, 2, 3)],
-}
+FALLS = {"mission.duration": 9.0, "faults": [{**LOST, "quadrotor": q, "rotor": r} for q in (1, 2) for r in (1, 2, 3)]}
 CLOSE = {  # missions with changes, and how far apart the positions may be [m]
     "paper": ({}, 1e-5),
     "flight-ready": ({"mission.duration": 25.0}, 1e-3),
@@ -55,7 +52,7 @@ def test_a_flight_stays_close_to_that_in_double_precision(name):
 def test_sums_over_all_steps_are_as_exact_as_a_float():
     double, single = flown("paper")
     for name in ("human_impulse_n_s", "human_work_j", "position_rmse_m"):
-        assert single.results[name] == pytest.approx(double.results[name], rel=3e-6, abs=1e-8)
+        assert single.results[name] == pytest.approx(double.results[name], rel=3e-6, abs=1e-6)
 
 
 def test_a_flight_has_the_same_numbers_in_any_lane_block_and_thread():
@@ -86,13 +83,15 @@ def test_a_flight_that_crashes_among_others_ends_at_its_own_step():
     missions.append(tl.load_mission("iris", {"mission.duration": 9.0}))
     double, single = tl.fly_many(missions), tl.fly_many(missions, precision="single")
     assert [flight.outcome for flight in single] == [flight.outcome for flight in double]
-    assert {flight.outcome for flight in single[:2]} <= {"crashed", "diverged"}
-    for a, b in zip(double[:2], single[:2], strict=True):
+    crashed = [(a, b) for a, b in zip(double, single, strict=True) if a.outcome == "crashed"]
+    assert 0 < len(crashed) < 3
+    for a, b in crashed:
         assert b.results["steps"] == pytest.approx(a.results["steps"], abs=20)
         assert len(b.time) == -(-b.results["steps"] // 10)
-    again = tl.fly_many(missions[:1], precision="single")[0]
-    assert same(again.results, single[0].results)
-    assert np.array_equal(again["position"], single[0]["position"])
+    for mission, flight in zip(missions, single, strict=True):
+        (again,) = tl.fly_many([mission], precision="single")
+        assert same(again.results, flight.results)
+        assert np.array_equal(again["position"], flight["position"])
 
 
 def test_a_block_reads_and_takes_floats():
@@ -105,6 +104,7 @@ def test_a_block_reads_and_takes_floats():
 RUN = """
 import sys
 from tandemlift.compiler.machine_code import machine
+machine._ready()
 machine.processor = lambda: (sys.argv[1], "")
 import tandemlift as tl
 mission = tl.load_mission("paper", {"mission.duration": 2.0, "mission.fma": sys.argv[2] == "fma"})
@@ -163,11 +163,11 @@ def test_a_refused_mission_among_others_does_not_stop_them():
     "call", [lambda how: tl.fly_many(["paper"], precision=how), lambda how: tl.Block("paper", 1, precision=how)]
 )
 def test_there_are_two_precisions(call):
-    with pytest.raises(InputError, match="precision = \"half\": must be 'double' or 'single'"):
+    with pytest.raises(InputError, match=r"precision = .half.: must be 'double' or 'single'"):
         call("half")
 
 
 def test_a_key_of_one_lane_cannot_be_its_precision():
     block = tl.Block("paper", 2)
-    with pytest.raises(InputError, match="mission.precision = 'single'|mission.precision = \"single\""):
+    with pytest.raises(InputError, match=r"mission\.precision = .single.: must be the same in all lanes"):
         block.reset(1, keys=SINGLE)
