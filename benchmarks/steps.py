@@ -6,7 +6,7 @@ over the pairs. How a base of Numba is set up is said in `compiling.py`.
 
 A block's eight flights differ in their seed and in what the body weighs; with real rotors two of them lose one, at
 different times. Those of "seeds" differ in their seed alone: their block reads most parameters as scalars. A block in
-"single" precision has sixteen flights, and its time is told for eight of them; the base flies eight in double precision.
+"single" precision has sixteen flights, and its time is told for eight of them; the base flies eight in doubles.
 In missions with "rates" the IMU gives 250 samples a second, the motion measurement 125.
 """
 
