@@ -94,6 +94,20 @@ def test_a_flight_that_crashes_among_others_ends_at_its_own_step():
         assert np.array_equal(again["position"], flight["position"])
 
 
+def test_flights_beside_one_that_crashes_in_the_last_step_have_their_last_sample():
+    crash = tl.load_mission("iris", FALLS)
+    (fallen,) = tl.fly_many([crash], precision="single")
+    assert fallen.outcome == "crashed"
+    length = {"mission.duration": fallen.results["steps"] * 0.001}
+    missions = [tl.load_mission("iris", {**FALLS, **length, "plant.mass_scale": scale}) for scale in (1.0, 0.8)]
+    lost, flying = tl.fly_many(missions, precision="single")
+    (alone,) = tl.fly_many(missions[1:], precision="single")
+    assert (lost.outcome, lost.results["steps"]) == ("crashed", fallen.results["steps"])
+    assert flying.results["steps"] == alone.results["steps"]
+    assert same(alone.results, flying.results)
+    assert np.array_equal(alone["position"], flying["position"])
+
+
 def test_a_block_reads_and_takes_floats():
     block = tl.Block("paper", 3, precision="single")
     block.step(np.full((3, 3), 0.5), steps=10)

@@ -101,12 +101,15 @@ def _fly_compiled(
         ended |= {
             lane: (states[:, lane].copy(), memory.k) for lane in _halted(memory, p.place("flight_state", "ended").at)
         }
-        if not p.single or memory.k >= p.steps or len(ended) == count:
+        if not p.single or memory.k > p.steps or len(ended) == count:
             break
+        if memory.k == p.steps:  # the last sample of the others
+            memory.fly(p.steps + 1)
     wall = (time.perf_counter() - began) / count
     last = memory.work[memory.span("sample")].reshape(-1, lanes) if in_block else memory.last[:, None]
     logs = [log.copy() for log in memory.log[:count]] if in_block else memory.log  # copies let go of all lanes
     finals = [ended.get(i, (states[:, i], min(memory.k, p.steps))) for i in range(count)]
+    last[:, [*ended]] = np.nan  # as of a flight alone that ends early
     flown = [
         RawResult(unflat(numbers, like), early[i], step, logs[i], last[:, i].astype(np.float64), wall)
         for i, (numbers, step) in enumerate(finals)

@@ -219,7 +219,9 @@ def test_what_cannot_be_is_refused_by_name(act, words):
 
 
 def test_an_environment_in_single_precision_is_close_to_that_in_double_and_each_flight_the_same_alone():
-    double, single, alone = (short("Hover", n, precision=how) for n, how in ((3, None), (3, "single"), (1, "single")))
+    double, single, alone = (
+        short("Transport", n, precision=how) for n, how in ((3, None), (3, "single"), (1, "single"))
+    )
     start, rng = [envs.reset(seed=5)[0] for envs in (double, single)], np.random.default_rng(0)
     np.testing.assert_array_equal(start[1][:1], alone.reset(seed=5)[0])
     np.testing.assert_allclose(start[1], start[0], atol=2e-3)
