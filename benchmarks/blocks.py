@@ -1,7 +1,8 @@
 """Flights that step together from Python: `python benchmarks/blocks.py`.
 
-Prints Markdown: calls of `tl.Block.step` with actions, of ten steps each, and whole steps of the Gymnasium environment
-with random actions; optimised code, one thread. A time is the median over rounds of the processor time of a call.
+Prints Markdown: calls of `tl.Block.step` with actions, of ten steps each, in double and in single precision, and whole
+steps of the Gymnasium environment with random actions; optimised code, one thread. A time is the median over rounds of
+the processor time of a call.
 """
 
 from __future__ import annotations
@@ -48,8 +49,8 @@ def microseconds(call: Callable[[], object], again: Callable[[], object], rounds
     return median(found)
 
 
-def of_block(name: str, lanes: int, rounds: int) -> float:
-    block = tl.Block(name, lanes, threads=1)
+def of_block(name: str, lanes: int, rounds: int, precision: str = "double") -> float:
+    block = tl.Block(name, lanes, threads=1, precision=precision)
     best(block)
     actions = np.full(block.actions.shape, 0.1)
     return microseconds(lambda: block.step(actions, steps=STEPS), block.reset, rounds)
@@ -73,10 +74,11 @@ def main() -> None:
     warnings.simplefilter("ignore")
     about, rows, results = describe(("tandemlift", "numpy", "llvmlite", "gymnasium")), [], {}
     for lanes in LANES:
-        for name in (*MISSIONS, TASK):
-            taken = of_environment(lanes, options.rounds) if name == TASK else of_block(name, lanes, options.rounds)
-            what = f"`tandemlift/{TASK}-v0`" if name == TASK else f"`Block` of `{name}`"
-            results[f"{name}, {lanes}"] = taken
+        found = {f"`Block` of `{name}`": of_block(name, lanes, options.rounds) for name in MISSIONS}
+        found |= {f"{name}, single": of_block(name[12:-1], lanes, options.rounds, "single") for name in [*found]}
+        found[f"`tandemlift/{TASK}-v0`"] = of_environment(lanes, options.rounds)
+        for what, taken in found.items():
+            results[f"{what}, {lanes}"] = taken
             rows.append([what, str(lanes), number(taken), number(lanes / taken), number(STEPS * lanes / taken)])
     print(heading(about), table(HEADER, rows), sep="\n\n")
     print(f"\nMedians of {options.rounds}; load at the end {os.getloadavg()[0]:.2f}.")

@@ -52,10 +52,13 @@ try:
     from tandemlift.simulation.plan import FlightPlan
 except ImportError:  # a base of before this folder
     from tandemlift.prepared import Prepared as FlightPlan
+def in_precision(missions, precision):
+    from tandemlift.missions import with_precision
+    return [FlightPlan(with_precision(mission, precision), in_block=True) for mission in missions]
 def loop_code(plan):
     return plan.loop_code if hasattr(plan, 'loop_code') else plan.kernels
-def code_of(missions):  # that these fly in together
-    plans = [FlightPlan(mission) for mission in missions]
+def code_of(missions, precision=None):  # that these fly in together
+    plans = [FlightPlan(mission) for mission in missions] if precision is None else in_precision(missions, precision)
     code = loop_code(plans[0])
     own = hasattr(code, 'parts_that_differ') and len(plans) > 1  # not a base of before scalars
     differ = {'differ': code.parts_that_differ([plan.start() for plan in plans])} if own else {}

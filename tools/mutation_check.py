@@ -37,7 +37,7 @@ PACKAGE, OUT, REASONS = ROOT / "src" / "tandemlift", ROOT / "out" / "mutants", R
 ROOMS = {  # begin of the files: how many are drawn, folders of tests (checks load missions, laws that survive fly)
     "parts": (240, ["tests/parts", "tests/missions", "tests/simulation"]),
     "parts/estimation/wrench": (36, ["tests/parts/estimation", "tests/simulation"]),
-    "simulation": (51, ["tests/simulation"]),
+    "simulation": (43, ["tests/simulation"]),
     "analysis/studies": (29, ["tests/analysis/studies"]),
     "analysis/certification": (44, ["tests/analysis/certification"]),
     "analysis/robustness": (44, ["tests/analysis/robustness"]),

@@ -26,7 +26,15 @@ UNPUSHED = 1000  # from this number on, a family has no pushes
 TRIES = 40  # of keys for one mission; many changes do not load
 OTHER_BODIES = "shape", "size", "mesh", "density", "corners", "bodies"  # of a payload that is no beam
 FIXED = (
-    *("mission.name", "mission.fma", "mission.log_interval", "person.recording", "changes", "admittance.feel"),
+    *(
+        "mission.name",
+        "mission.fma",
+        "mission.precision",
+        "mission.log_interval",
+        "person.recording",
+        "changes",
+        "admittance.feel",
+    ),
     "excitation",  # needs lines that suit the vehicle
     *("plant.center_of_mass_offset", *(f"vehicle.payload.{key}" for key in OTHER_BODIES)),  # the judge has none of them
 )

@@ -8,6 +8,7 @@ import tandemlift as tl
 from tandemlift.analysis.studies.execution.flying import fly_each
 from tandemlift.core.errors import InputError
 from tandemlift.missions import MissionTemplate
+from tandemlift.simulation import flight_groups as groups
 from tandemlift.simulation import fly as fly_module
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import LANES
@@ -85,7 +86,7 @@ def test_missions_of_an_iterator_are_read_while_others_fly_and_come_back_in_orde
 
 
 def test_no_more_missions_wait_for_others_of_their_variant_than_allowed(monkeypatch):
-    monkeypatch.setattr(fly_module, "WAITING", 20)
+    monkeypatch.setattr(groups, "WAITING", 20)
     read, ahead = [], []
 
     def reading():  # no two have as many steps
@@ -99,10 +100,10 @@ def test_no_more_missions_wait_for_others_of_their_variant_than_allowed(monkeypa
 
 
 def test_a_mission_that_cannot_be_built_stops_all_or_gives_its_refusal(monkeypatch):
-    def plan(mission):
+    def plan(mission, **how):
         if mission.mission.seed in (3, 30):
             raise InputError(f"seed {mission.mission.seed} cannot be built")
-        return FlightPlan(mission)
+        return FlightPlan(mission, **how)
 
     monkeypatch.setattr(fly_module, "FlightPlan", plan)
     with pytest.raises(InputError, match="seed 3 "):

@@ -107,7 +107,7 @@ class KnownFile:
 
         mission = p.mission
         reads = mission.person.recording is not None or mission.vehicle.payload.mesh is not None
-        alone = p.engine == "compiled" and not p.stepwise and not reads and not flown.lost
+        alone = p.engine == "compiled" and not (p.stepwise or p.single or reads or flown.lost)
         if not self._key or not alone or FlightWarning.count != self._warnings or not store.hash_of_sources():
             return
         sources = [layer.source for layer in layers_of(path_of(self._name, Path()))]

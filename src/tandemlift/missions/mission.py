@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from html import escape
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field, SerializeAsAny, ValidationError, model_validator
 
@@ -82,9 +82,9 @@ class MissionTable(Table):
     fma: bool = key(
         True,
         None,
-        "whether a·b + c is rounded once, which is fastest; false gives the same bits on every machine, in "
-        "WebAssembly and in C",
+        "whether a·b + c is rounded once, which is fastest; false gives the same bits on every machine, as in C",
     )
+    precision: Literal["double", "single"] = key("double", None, "of the numbers; single flies 16 flights at once")
 
     @property
     def steps(self) -> int:

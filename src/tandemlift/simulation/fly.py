@@ -2,32 +2,34 @@
 
 from __future__ import annotations
 
+import functools
 import os
 import threading
 import time
-from collections import OrderedDict
-from collections.abc import Callable, Iterable, Iterator, Sequence, Sized
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
+
+import numpy as np
 
 from tandemlift.core.errors import InputError
 from tandemlift.core.progress import Stopped, always, progress_or_own
 from tandemlift.core.types import Progress, leaves, unflat
 from tandemlift.flight.record import Flight
-from tandemlift.missions import Mission, MissionLike, mission_of
+from tandemlift.missions import Mission, MissionLike, mission_of, with_precision
 from tandemlift.missions.recording import engine_of
 from tandemlift.parts.controllers.registry import explained
 from tandemlift.simulation.caller_values import count_of
+from tandemlift.simulation.flight_groups import FlightGroup, FlightGroups
 from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.preparation import LANES, FlightMemory, machine_of
+from tandemlift.simulation.preparation import FlightMemory, machine_of
+from tandemlift.simulation.preparation.memory import Numbers
 from tandemlift.simulation.results import RawResult, flight_of, metrics_of, take_metrics
 from tandemlift.simulation.stepping import body_of, fly_stepwise
 
 STRETCH = 0.1  # s of flight code between updates of the progress bar and checks for Ctrl-C
 FIRST_STRETCH = 5_000  # steps of the first stretch of code
-SORTED = 8 * LANES  # flights of one variant that are sorted before they are cut into blocks
-WAITING = 64 * LANES  # flights, at most, that wait for others of their variant
 
 
 def _stretches(p: FlightPlan, memory: FlightMemory, going: Callable[[], bool]) -> Iterator[int]:
@@ -49,6 +51,24 @@ def _stretches(p: FlightPlan, memory: FlightMemory, going: Callable[[], bool]) -
             memory.code.pace = pace
 
 
+def _halt(memory: FlightMemory, count: int) -> None:
+    """Let a block halt where one of its first flights ends."""
+    memory.work[memory.span("halts")][:count] = 1.0
+    memory.put("shown", memory.work[memory.span("sample")].ctypes.data)  # the sample of the step in which it ends
+    memory.put("apart", 1)
+
+
+def _halted(memory: FlightMemory, ended_at: int) -> list[int]:
+    """The lanes that have just halted a block, which halt it no more; `ended_at`: the number that tells the end."""
+    lanes = len(memory.starts)
+    if lanes == 1:
+        return []
+    halts, ended = memory.work[memory.span("halts")], memory.numbers[ended_at * lanes : (ended_at + 1) * lanes]
+    found = np.flatnonzero((halts != 0.0) & (ended != 0.0))
+    halts[found] = 0.0
+    return [int(lane) for lane in found]
+
+
 def _fly_compiled(
     flights: Sequence[FlightPlan],
     rows: int,
@@ -57,28 +77,45 @@ def _fly_compiled(
     going: Callable[[], bool] = always,
     machine: Any = None,
 ) -> list[RawResult]:
-    """Fly one flight, or up to LANES of one variant and grid; diverged ones are flown again alone, to stop in time."""
+    """Fly one flight, or up to `lanes` of one variant and grid; diverged ones are flown again alone, to stop in time.
+
+    In single precision a block halts where one of them ends.
+    """
     p, count = flights[0], len(flights)
-    lanes = [*flights, *[flights[-1]] * (LANES - count)] if count > 1 else flights
-    starts = [f.start() for f in lanes]
-    code = p.loop_code.loop(len(lanes), going, differ=p.loop_code.parts_that_differ(starts), around=machine)
+    in_block = count > 1 or p.single
+    starts = [f.start() for f in flights]
+    starts += [starts[-1]] * (p.lanes - count) if in_block else []
+    lanes = len(starts)
+    code = p.loop_code.loop(lanes, going, differ=p.loop_code.parts_that_differ(starts), around=machine)
     memory = FlightMemory(code, starts, p.grid(rows, every), leaves(p.sample), machine=machine)
-    began, early = time.perf_counter(), [EMPTY] * len(lanes)
-    for k in _stretches(p, memory, going):
-        if k == p.late_step < p.steps:
-            early = take_metrics(memory.numbers, p.model, len(lanes))
-        if progress:
-            progress(k, p.steps)
+    began, early, like = time.perf_counter(), [EMPTY] * lanes, p.model.flight_state
+    states = memory.numbers.reshape(-1, lanes)[: leaves(like)]
+    ended = dict[int, tuple[Numbers, int]]()
+    if p.single:
+        _halt(memory, count)
+    while True:
+        for k in _stretches(p, memory, going):
+            if k == p.late_step < p.steps:
+                early = take_metrics(memory.numbers, p.model, lanes)
+            if progress:
+                progress(k, p.steps)
+        ended |= {
+            lane: (states[:, lane].copy(), memory.k) for lane in _halted(memory, p.place("flight_state", "ended").at)
+        }
+        if not p.single or memory.k > p.steps or len(ended) == count:
+            break
+        if memory.k == p.steps:  # the last sample of the others
+            memory.fly(p.steps + 1)
     wall = (time.perf_counter() - began) / count
-    like = p.model.flight_state
-    states = memory.numbers.reshape(-1, len(lanes))[: leaves(like)]
-    last = memory.work[memory.span("sample")].reshape(-1, len(lanes)) if count > 1 else memory.last[:, None]
-    logs = [log.copy() for log in memory.log[:count]] if count > 1 else memory.log  # copies let go of all lanes
+    last = memory.work[memory.span("sample")].reshape(-1, lanes) if in_block else memory.last[:, None]
+    logs = [log.copy() for log in memory.log[:count]] if in_block else memory.log  # copies let go of all lanes
+    finals = [ended.get(i, (states[:, i], min(memory.k, p.steps))) for i in range(count)]
+    last[:, [*ended]] = np.nan  # as of a flight alone that ends early
     flown = [
-        RawResult(unflat(states[:, i], like), early[i], min(memory.k, p.steps), logs[i], last[:, i].copy(), wall)
-        for i in range(count)
+        RawResult(unflat(numbers, like), early[i], step, logs[i], last[:, i].astype(np.float64), wall)
+        for i, (numbers, step) in enumerate(finals)
     ]
-    if count == 1:
+    if count == 1 or p.single:
         return flown
     return [
         _fly_compiled([f], rows, every, going=going)[0] if x.lost else x for f, x in zip(flights, flown, strict=True)
@@ -93,7 +130,7 @@ def fly(mission: MissionLike, engine: str | None = None, *, progress: Progress |
 def plan_of(mission: MissionLike, engine: str | None = None) -> FlightPlan:
     """The plan of a mission in an engine; arguments as for `fly`."""
     mission = mission_of(mission)
-    return FlightPlan(mission, engine_of(mission.person.recording) if engine is None else engine)
+    return FlightPlan(mission, engine_of(mission.person.recording) if engine is None else engine, in_block=True)
 
 
 def fly_plan(p: FlightPlan, progress: Progress | None = None) -> tuple[Flight, RawResult]:
@@ -113,6 +150,7 @@ def fly_many(
     keep: Literal["flights", "metrics"] = "flights",
     threads: int | None = None,
     *,
+    precision: Literal["double", "single"] | None = None,
     refusals: bool = False,
     progress: Progress | None = None,
 ) -> list[Any]:
@@ -124,6 +162,7 @@ def fly_many(
         keep: "flights" for a list of `Flight`; "metrics" for a list of metrics only, in memory that does not grow with
             the number of steps.
         threads: number of threads; by default one for each processor.
+        precision: of all flights, in place of `mission.precision`.
         refusals: whether a mission that cannot be built gives its `InputError`, and the others are flown.
         progress: called with (flights flown, flights in all; of an iterator, those read so far); by default, a
             notebook shows a bar.
@@ -132,8 +171,8 @@ def fly_many(
         One entry for each mission, in the order given, bit-identical to that of a flight alone.
 
     Raises:
-        InputError: `missions` is one text, `keep` or `threads` is not one of the above, or a mission cannot be built
-            and `refusals` is false.
+        InputError: `missions` is one text, an argument is not one of the above, or a mission cannot be built, or not
+            in single precision, and `refusals` is false.
     """
     if isinstance(missions, (str, os.PathLike)):
         raise InputError(f"missions = {str(missions)!r}: must be a list, such as [{str(missions)!r}]")
@@ -141,17 +180,29 @@ def fly_many(
         raise InputError(f"keep = {keep!r}: must be 'flights' or 'metrics'")
     threads = (os.cpu_count() or 1) if threads is None else count_of("threads", threads)
     with progress_or_own("Flown", progress, "flights") as shown:
-        return _flown_by_threads(_FlightGroups(missions, refusals, shown), keep, threads)
+        plan = functools.partial(_plan_of, precision=precision, refusals=refusals)
+        return _flown_by_threads(FlightGroups(missions, plan, shown), keep, threads, refusals=refusals)
 
 
-def _flown_by_threads(groups: _FlightGroups, keep: str, count: int) -> list[Any]:
+def _plan_of(mission: MissionLike | InputError, precision: str | None, *, refusals: bool) -> FlightPlan | InputError:
+    try:
+        if isinstance(mission, InputError):
+            raise mission
+        return FlightPlan(with_precision(mission_of(mission), precision), in_block=True)
+    except InputError as error:
+        if not refusals:
+            raise
+        return error
+
+
+def _flown_by_threads(groups: FlightGroups, keep: str, count: int, *, refusals: bool) -> list[Any]:
     """The results of all missions, in the order given, by some threads."""
     results, going = dict[int, Any](), threading.Event()
     going.set()
 
     def work() -> None:
         while going.is_set() and (group := groups.take()):
-            results.update(zip(group.places, groups.results_of(group, keep, going.is_set), strict=True))
+            results.update(zip(group.places, _results_of(group, keep, going.is_set, refusals=refusals), strict=True))
             groups.finish(group)
 
     pool = ThreadPoolExecutor(count)
@@ -178,6 +229,18 @@ def refusal_of(error: Exception, mission: Mission) -> InputError:
     raise error
 
 
+def _results_of(group: FlightGroup, keep: str, going: Callable[[], bool], *, refusals: bool) -> list[Any]:
+    """The flights of a group, flown, or their metrics; or their refusal."""
+    if group.refusal:
+        return [group.refusal]
+    try:
+        return _flown(group.flights, keep, going)
+    except Exception as error:
+        if not refusals:
+            raise
+        return [refusal_of(error, group.flights[0].mission)] * len(group.flights)
+
+
 def _flown(flights: list[FlightPlan], keep: str, going: Callable[[], bool]) -> list[Any]:
     """The flights of a group, flown as a block if there are several, or their metrics."""
     p = flights[0]
@@ -186,110 +249,3 @@ def _flown(flights: list[FlightPlan], keep: str, going: Callable[[], bool]) -> l
         [fly_stepwise(p, rows, every, going=going)] if p.stepwise else _fly_compiled(flights, rows, every, going=going)
     )
     return list(map(flight_of if keep == "flights" else metrics_of, flights, raw))
-
-
-class _FlightGroup(NamedTuple):
-    """Flights that fly together, with their indices among all missions; or the refusal of the mission at one index."""
-
-    places: list[int]
-    flights: list[FlightPlan]
-    refusal: InputError | None = None
-
-    def pop(self, numbers: Sequence[int]) -> _FlightGroup:
-        """Take some of them out."""
-        taken = _FlightGroup([self.places[i] for i in numbers], [self.flights[i] for i in numbers])
-        for i in sorted(numbers, reverse=True):
-            del self.places[i], self.flights[i]
-        return taken
-
-    def blocks(self) -> Iterator[_FlightGroup]:
-        """Take out all, at most LANES at once, in the order of what happens in the flights."""
-        while self.flights:
-            yield self.pop(sorted(range(len(self.flights)), key=lambda i: self.flights[i].regime)[:LANES])
-
-
-class _FlightGroups:
-    """The groups of some missions, for any number of threads: each takes the next group when it is free.
-
-    A group is prepared by the thread that takes it, so that one thread prepares while others fly, and no more missions
-    are held than those that fly or wait for others of their variant.
-
-    Args:
-        missions: an iterable, of which one mission is read after the other.
-        refusals: whether an `InputError` is a result.
-        progress: called with the flights that are finished, and all of them.
-
-    Attributes:
-        read: the number of missions read so far.
-    """
-
-    def __init__(
-        self, missions: Iterable[MissionLike | InputError], refusals: bool = False, progress: Progress | None = None
-    ) -> None:
-        self.read, self.refusals = 0, refusals
-        self._finished, self._total = 0, len(missions) if isinstance(missions, Sized) else None
-        self._groups, self._progress = self._grouped(missions), progress
-        # apart, because a group is prepared, which takes long, while the first is held
-        self._taking, self._counting = threading.Lock(), threading.Lock()
-
-    def take(self) -> _FlightGroup | None:
-        """The next group; None if there is no other. An `InputError` if a mission cannot be built."""
-        with self._taking:
-            return next(self._groups, None)
-
-    def finish(self, group: _FlightGroup) -> None:
-        """Count a group that has flown."""
-        with self._counting:
-            self._finished += len(group.places)
-            if self._progress:
-                self._progress(self._finished, self.read if self._total is None else self._total)
-
-    def results_of(self, group: _FlightGroup, keep: str, going: Callable[[], bool]) -> list[Any]:
-        """The flights of a group, flown, or their metrics; or their refusal."""
-        if group.refusal:
-            return [group.refusal]
-        try:
-            return _flown(group.flights, keep, going)
-        except Exception as error:
-            if not self.refusals:
-                raise
-            return [refusal_of(error, group.flights[0].mission)] * len(group.flights)
-
-    def _plan(self, mission: MissionLike | InputError) -> FlightPlan | InputError:
-        try:
-            if isinstance(mission, InputError):
-                raise mission
-            return FlightPlan(mission_of(mission))
-        except InputError as error:
-            if not self.refusals:
-                raise
-            return error
-
-    def _grouped(self, missions: Iterable[MissionLike | InputError]) -> Iterator[_FlightGroup]:
-        """Groups of flights of one variant and grid, at most LANES; stepwise flights alone.
-
-        A block takes as long as if what happens in a lane happened in all, so flights wait for others of their regime.
-        """
-        waiting = OrderedDict[Any, _FlightGroup]()
-        for place, mission in enumerate(missions):
-            self.read, p = place + 1, self._plan(mission)
-            if isinstance(p, InputError):
-                yield _FlightGroup([place], [], p)
-            elif p.stepwise:
-                yield _FlightGroup([place], [p])
-            else:
-                key = (p.variant, p.steps, p.every, p.dt, tuple(p.delays.tolist()))
-                group = waiting.setdefault(key, _FlightGroup([], []))
-                group.places.append(place)
-                group.flights.append(p)
-                alike = [i for i, flight in enumerate(group.flights) if flight.regime == p.regime]
-                if len(alike) == LANES:
-                    yield group.pop(alike)
-                elif len(group.flights) == SORTED:
-                    yield from group.blocks()
-                elif sum(len(g.flights) for g in waiting.values()) > WAITING:  # the group that waits longest flies
-                    yield from waiting.popitem(last=False)[1].blocks()
-                if not group.flights:
-                    waiting.pop(key, None)
-        for group in waiting.values():
-            yield from group.blocks()

@@ -13,7 +13,7 @@ from tandemlift.core.errors import InputError, shown
 from tandemlift.core.refusals import Refusals
 from tandemlift.core.types import Array, flat, leaves, unflat
 from tandemlift.core.vector import ZERO, Absent, Quat
-from tandemlift.missions import Mission, MissionLike, mission_of
+from tandemlift.missions import Mission, MissionLike, check_double, mission_of
 from tandemlift.parts.controllers import control
 from tandemlift.parts.interaction.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.parts.mechanics.rigid_body import State
@@ -51,6 +51,7 @@ class Pilot:
 
     def __init__(self, mission: MissionLike) -> None:
         mission = mission_of(mission)
+        check_double(mission, "a pilot alone computes in doubles")
         self._start = assembled_by_graph(mission, pilot_at_start)
         if type(self._start.parameters.controller) in control.interpreted:
             raise InputError(f"controller {mission.controller.name!r} is plain Python; write it as a law to use Pilot")

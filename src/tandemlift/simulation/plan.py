@@ -14,13 +14,22 @@ from tandemlift.core.types import layout_and_numbers
 from tandemlift.core.vector import ZERO, each, layout
 from tandemlift.engines.registry import engine_named
 from tandemlift.flight.record import LATE
-from tandemlift.missions import Mission
+from tandemlift.missions import Mission, check_double
 from tandemlift.parts.controllers import NoMemory, control
 from tandemlift.parts.interaction.caller_inputs import CallerInput, OutsidePush
 from tandemlift.parts.interaction.requests import ReferenceVelocity
 from tandemlift.simulation.loop.log_sample import Sample
-from tandemlift.simulation.preparation import FlightStart, LeafSpan, LoopCode, PythonController, TimeGrid, leaf_offset
+from tandemlift.simulation.preparation import (
+    LANES,
+    FlightStart,
+    LeafSpan,
+    LoopCode,
+    PythonController,
+    TimeGrid,
+    leaf_offset,
+)
 from tandemlift.simulation.preparation.assemble import assemble
+from tandemlift.simulation.preparation.memory import in_floats
 from tandemlift.simulation.preparation.traced_assembly import assembled_by_graph
 
 LONG_RUN, LONG_STEPWISE = 5_000_000, 10_000  # steps that take about a second
@@ -35,16 +44,22 @@ class FlightPlan:
         mission: from `load_mission`.
         engine: name of the body's engine.
         interactive: whether the caller of a step has inputs (`parts.interaction.caller_inputs`).
+        in_block: whether it is flown in a block, which alone may be in single precision.
 
     Raises:
-        InputError: the engine is unknown, or the mission cannot be built.
+        InputError: the engine is unknown, or the mission cannot be built, or needs double precision.
     """
 
-    def __init__(self, mission: Mission, engine: str = "compiled", *, interactive: bool = False) -> None:
+    def __init__(
+        self, mission: Mission, engine: str = "compiled", *, interactive: bool = False, in_block: bool = False
+    ) -> None:
+        if not in_block:
+            check_double(mission, "only fly, fly_many, Block, environments and studies compute in single precision")
         self.mission, self.engine, self.interactive = mission, engine, interactive
         self.steps = mission.mission.steps
         self.every = mission.mission.log_every
         self.dt = mission.mission.step
+        self.single = mission.mission.precision == "single"
         self.model, self.given, self.tables, self.delays, self.seeds = assembled_by_graph(mission, assemble)
         if interactive:
             rotors = 4 * len(mission.vehicle.quadrotors)
@@ -56,6 +71,19 @@ class FlightPlan:
         self.interpreted: tuple[Any, Any] | None = None
         if type(self.model.pilot.controller) in control.interpreted:
             self._detach_python_controller()
+        if engine != "compiled":
+            check_double(mission, f"the engine {engine!r} computes in doubles")
+        if self.interpreted is not None:
+            check_double(
+                mission, f"the controller {mission.controller.name!r} is plain Python, which computes in doubles"
+            )
+        if mission.changes_in_flight:
+            what = (
+                "person.recording is flown again, bit by bit,"
+                if mission.person.recording
+                else "changes in flight are flown"
+            )
+            check_double(mission, f"{what} in doubles")
 
     def _detach_python_controller(self) -> None:
         flight_state, pilot = self.model.flight_state, self.model.pilot
@@ -68,7 +96,7 @@ class FlightPlan:
     @cached_property
     def variant(self) -> Any:
         """The key of the compiled loop: the types, not the values, of its members and inputs; and its rounding."""
-        return self._parts[0], layout(self.given), self.mission.mission.fma
+        return self._parts[0], layout(self.given), self.mission.mission.fma, self.single
 
     @cached_property
     def _parts(self) -> tuple[Any, list[float]]:
@@ -99,6 +127,11 @@ class FlightPlan:
         """The first step that starts at `LATE` or later."""
         return math.ceil(LATE / self.dt - 1e-9)
 
+    @property
+    def lanes(self) -> int:
+        """Flights of a block: as many as a vector of the processor has numbers."""
+        return LANES * (1 + self.single)
+
     @cached_property
     def regime(self) -> tuple[float, ...]:
         """What happens in the flight that takes code of its own: the number of walls, and when rotors fail [s]."""
@@ -109,11 +142,13 @@ class FlightPlan:
     def loop_code(self) -> LoopCode:
         """The compiled loops of this variant."""
         key = self.variant, replaced()
-        return LOOP_CODE.of(key, lambda: LoopCode(self.model, self.given, fuses=self.mission.mission.fma))
+        return LOOP_CODE.of(
+            key, lambda: LoopCode(self.model, self.given, fuses=self.mission.mission.fma, single=self.single)
+        )
 
     def start(self) -> FlightStart:
         """The flight at its first step, as input of a compiled loop."""
-        numbers = np.array(self._parts[1], dtype=float)
+        numbers = in_floats(self._parts[1]) if self.single else np.array(self._parts[1], dtype=float)
         return FlightStart(numbers, self.tables, self._delay_lines(numbers), self.seeds)
 
     def grid(self, rows: int, every: int) -> TimeGrid:

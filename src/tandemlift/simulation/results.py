@@ -76,6 +76,7 @@ def take_metrics(numbers: Array, like: FlightModel, lanes: int) -> list[RunningM
     empty = like.flight_state.metrics
     tallies = [unflat(rows[:, lane], empty) for lane in range(lanes)]
     rows[:] = np.array(flat(empty))[:, None]
+    numbers[leaves(like) * lanes :] = 0.0  # what compensated sums left over
     return tallies
 
 

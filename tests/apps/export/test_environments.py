@@ -216,3 +216,20 @@ def test_a_mask_without_a_truth_begins_nothing():
 def test_what_cannot_be_is_refused_by_name(act, words):
     with pytest.raises(tl.InputError, match=words):
         act()
+
+
+def test_an_environment_in_single_precision_is_close_to_that_in_double_and_each_flight_the_same_alone():
+    double, single, alone = (
+        short("Transport", n, precision=how) for n, how in ((3, None), (3, "single"), (1, "single"))
+    )
+    start, rng = [envs.reset(seed=5)[0] for envs in (double, single)], np.random.default_rng(0)
+    np.testing.assert_array_equal(start[1][:1], alone.reset(seed=5)[0])
+    np.testing.assert_allclose(start[1], start[0], atol=2e-3)
+    for _ in range(10):
+        actions = rng.uniform(-1.0, 1.0, double.action_space.shape)
+        (near, *_), (seen, *_), (first, *_) = (
+            e.step(a) for e, a in ((double, actions), (single, actions), (alone, actions[:1]))
+        )
+        np.testing.assert_array_equal(seen[:1], first)
+        np.testing.assert_allclose(seen, near, atol=5e-3)
+    assert single.block["position"].dtype == np.float32

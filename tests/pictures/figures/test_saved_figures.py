@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from PIL import Image
 
 import tandemlift as tl
 from tandemlift.pictures.drawing import style
@@ -30,15 +29,6 @@ def places(figure, labels=False):
         return np.array([ax.get_tightbbox(renderer).extents for ax in figure.axes])
     texts = [axis.label for ax in figure.axes for axis in (ax.xaxis, ax.yaxis) if axis.label.get_text()]
     return np.array([text.get_window_extent(renderer).extents for text in texts])
-
-
-def test_a_png_holds_the_dots_that_the_drawing_library_writes(figure, tmp_path):
-    ours = style.save(figure, tmp_path / "ours.png")
-    with style.under(figure.style):
-        figure.savefig(tmp_path / "theirs.png")
-    with Image.open(ours) as a, Image.open(tmp_path / "theirs.png") as b:
-        assert np.array_equal(np.asarray(a), np.asarray(b.convert("RGB")))
-        assert a.info["dpi"] == b.info["dpi"]
 
 
 def test_labels_of_axes_stay_where_the_drawing_library_puts_them_also_in_other_resolutions(flight):

@@ -28,7 +28,7 @@ from tandemlift.parts.mechanics.wind import gust_velocity
 from tandemlift.simulation.caller_values import count_of, held_inputs
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import GAUSSIAN, GUST, leaf_offset
-from tandemlift.simulation.preparation.limit_solver import write_limits, write_solver
+from tandemlift.simulation.preparation.loops import write_limits, write_solver
 
 ACTIONS = ("push", "thrusts", "velocity")
 MOTION = {"position": 3, "velocity": 3, "attitude": 4, "rates": 3}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,7 @@ from tandemlift.analysis.studies.design.draws import absolute, dimensions_of, dr
 from tandemlift.apps.export.gymnasium_tasks import TASKS, ActionLevel, LearningTask, Level
 from tandemlift.core.errors import InputError, extra, shown, suggestion
 from tandemlift.core.types import Array
-from tandemlift.missions import load_mission, tables_of
+from tandemlift.missions import load_mission, tables_of, with_precision
 
 with extra("gymnasium", "an environment for learning"):
     import gymnasium
@@ -54,6 +54,7 @@ class FlightVectorEnv(VectorEnv[Observations, Array, NDArray[Any]]):
         changes: keys of the mission.
         autoreset_mode: "NextStep", "SameStep" or "Disabled".
         threads: for long steps; by default one for each processor.
+        precision: "single" for flights in single precision, sixteen at once; by default the mission's.
 
     Raises:
         InputError: there is no such task or level, or the changed mission cannot be flown.
@@ -71,13 +72,15 @@ class FlightVectorEnv(VectorEnv[Observations, Array, NDArray[Any]]):
         changes: Mapping[str, Any] | None = None,
         autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
         threads: int | None = None,
+        precision: Literal["double", "single"] | None = None,
     ) -> None:
         self.task, self.num_envs = task_named(task), num_envs
         self._mode = AutoresetMode(autoreset_mode)
         self.metadata = {"render_modes": [], "autoreset_mode": self._mode}
         begin, end = self.task.begin, self.task.begin + self.task.duration
         mission = load_mission(self.task.mission, {**self.task.keys, "mission.duration": end, **(changes or {})})
-        self.mission, self._tables = mission, tables_of(mission)
+        self.mission = mission = with_precision(mission, precision)
+        self._tables = tables_of(mission)
         if not mission.mission.step <= interval < np.inf:
             raise InputError(f"interval = {shown(interval)}: must be at least a step, {mission.mission.step:g} s")
         self._steps = round(interval / mission.mission.step)

@@ -16,7 +16,7 @@ from tandemlift.core.errors import InputError, shown, without_flight_warnings
 from tandemlift.core.files import toml_tables
 from tandemlift.core.types import Progress
 from tandemlift.flight.corridor_score import CorridorScore, score_of
-from tandemlift.missions import Mission, load_mission, tables_of
+from tandemlift.missions import Mission, check_double, load_mission, tables_of
 from tandemlift.missions.recording import HAND_FILE, MAX_UNPACKED, MISSION_FILE, read_recording
 from tandemlift.simulation.fly import fly
 
@@ -137,6 +137,7 @@ def ranked(
     Raises:
         InputError: nothing was handed in.
     """
+    check_double(challenge, "a score is that of a flight in doubles")
     (paths, others), results = handed_in(folder), list[HandedIn]()
     keys = dict(dotted_values(tables_of(interactive_mission(challenge))))
     for path in paths:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from tandemlift.compiler import single as single  # for floats
 from tandemlift.compiler.machine_code import machine
 from tandemlift.compiler.tracer.fused import traced
 from tandemlift.compiler.tracer.graph import Graph, symbols
@@ -37,9 +38,11 @@ def in_rows(blocks: Array, rows: int) -> Array:
     return back.reshape(-1, *back.shape[2:])[:rows]
 
 
-def written(function: Callable[..., Any], *likes: Any, lanes: int = 1, rolls_from: int = 0) -> tuple[str, int]:
+def written(
+    function: Callable[..., Any], *likes: Any, lanes: int = 1, rolls_from: int = 0, real: str = "double"
+) -> tuple[str, int]:
     """The text of a module whose `rows` evaluates a function as `compiled` does, and the number of its results."""
-    graph, module = Graph(rolls_from), Module()
+    graph, module = Graph(rolls_from, real), Module()
     found = results_of(graph, traced(function), likes)
     f = Function(module, graph, lanes, "i64 @rows(ptr %x, ptr %y, i64 %count) #0")
     with f.repeat("%count") as row:
@@ -52,7 +55,12 @@ def written(function: Callable[..., Any], *likes: Any, lanes: int = 1, rolls_fro
 
 
 def compiled(
-    function: Callable[..., Any], *likes: Any, lanes: int = 1, level: machine.Level = machine.BEST, rolls_from: int = 0
+    function: Callable[..., Any],
+    *likes: Any,
+    lanes: int = 1,
+    level: machine.Level = machine.BEST,
+    rolls_from: int = 0,
+    real: str = "double",
 ) -> Callable[[Array], Array]:
     """Machine code of a function of values.
 
@@ -62,6 +70,7 @@ def compiled(
         lanes: rows per instruction, 1 or a power of two.
         level: optimisation level.
         rolls_from: size from which on sets are handled in loops; 0 for never.
+        real: "double", or "float" for single precision.
 
     Returns:
         A function from (rows, numbers of all arguments) to (rows, numbers of its results), depth first. The
@@ -70,12 +79,13 @@ def compiled(
     Raises:
         TraceError: the function cannot be traced.
     """
-    text, height = written(function, *likes, lanes=lanes, rolls_from=rolls_from)
+    text, height = written(function, *likes, lanes=lanes, rolls_from=rolls_from, real=real)
     code = machine.Loaded(machine.compiled(text, level), ["rows"])
+    kind = np.float32 if real == "float" else np.float64
 
     def call(rows: Array) -> Array:
-        x = in_lanes(rows, lanes)
-        y = np.empty((len(x), height, lanes))
+        x = in_lanes(rows.astype(kind), lanes)
+        y = np.empty((len(x), height, lanes), kind)
         machine.ROWS(code.addresses["rows"])(x.ctypes.data, y.ctypes.data, len(x))
         return in_rows(y, len(rows))
 

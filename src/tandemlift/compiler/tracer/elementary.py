@@ -26,6 +26,7 @@ PI = 3.141592653589793
 HALF_PI = 1.5707963267948966
 QUARTER_PI = 0.7853981633974483
 TAN_EIGHTH = 0.41421356237309503  # tan(π/8)
+SINGLE = dict[str, Callable[..., Any]]()  # functions of `compiler.single.elementary`, by their names
 
 
 def polynomial(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -33,10 +34,18 @@ def polynomial(function: Callable[..., Any]) -> Callable[..., Any]:
 
     @functools.wraps(function)
     def call(*args: Any) -> Any:
+        if any(isinstance(x, Symbol) and x.graph.real == "float" for x in args):
+            return fused(SINGLE.get(function.__name__, function))(*args)
         interceptor = INTERCEPTOR.get()
         return fused(function)(*args) if interceptor is None else interceptor.enter(function, args)
 
     return call
+
+
+def single(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Mark a function that takes the place of the one of this file with its name in a graph of floats."""
+    SINGLE[function.__name__] = function
+    return function
 
 
 def as_float(i: int) -> Number:

@@ -1,7 +1,8 @@
 """A graph of operations on numbers, built by symbols when a law runs on them.
 
-A node is (operation, arguments, type). Equal nodes are one node, so nothing is computed twice. Types: `f` a double, `b`
-a truth, `i` a 64-bit integer. A large set of numbers is one node with a count.
+A node is (operation, arguments, type). Equal nodes are one node, so nothing is computed twice. Types: `f` a double, or
+a float in a graph in single precision; `b` a truth, `i` a 64-bit integer, `w` the 32 bits of a float. A large set of
+numbers is one node with a count.
 
 Leaf i of lane l of `lanes` interleaved values (`core.types`) is a[i * lanes + l].
 """
@@ -26,10 +27,12 @@ LAW: ContextVar[Callable[..., Any] | None] = ContextVar("law", default=None)  # 
 class Graph:
     """Nodes by number, in the order of their creation: arguments come first.
 
-    `laws`: which law made each first. `uniform`: for kinds of inputs, whether each node depends on no other.
+    `laws`: which law made each first. `uniform`: for kinds of inputs, whether each node depends on no other. `real`:
+    the type of its numbers in machine code, "double" or "float".
     """
 
-    def __init__(self, rolls_from: int = 0) -> None:
+    def __init__(self, rolls_from: int = 0, real: str = "double") -> None:
+        self.real = real
         self.ops: list[str] = []
         self.args: list[tuple[Any, ...]] = []
         self.types: list[str] = []

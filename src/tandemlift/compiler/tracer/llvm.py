@@ -15,7 +15,7 @@ from tandemlift.compiler.tracer.graph import LEAVES, Graph
 from tandemlift.compiler.tracer.order import NumbersInMemory, best_order, urgency
 from tandemlift.compiler.tracer.rolled import Sets
 from tandemlift.compiler.tracer.symbol import Symbol
-from tandemlift.compiler.tracer.text import BASE, Module, Place, Text, constant
+from tandemlift.compiler.tracer.text import Module, Place, Text, constant
 
 BINARY = frozenset(["fadd", "fsub", "fmul", "fdiv", "add", "sub", "mul", "and", "or", "xor", "shl", "ashr"])
 INTRINSICS = ("fma", "sqrt", "fabs", "floor")
@@ -105,15 +105,15 @@ class Function(Text):
         return {*self._values, *self.sets.places}
 
     def _kind(self, type: str, uniform: bool) -> str:
-        return BASE[type] if uniform or self.lanes == 1 else f"<{self.lanes} x {BASE[type]}>"
+        return self.base[type] if uniform or self.lanes == 1 else f"<{self.lanes} x {self.base[type]}>"
 
     def operand(self, node: int, *, spread: bool = True) -> str:
         """A number already computed in this function, in all lanes, or as a scalar that is equal in all."""
         g, node = self.graph, self.same.get(node, node)
         if g.ops[node] == "const":
-            text = constant(g.args[node][0])
-            return f"splat ({BASE[g.types[node]]} {text})" if spread and self.lanes > 1 else text
-        alike, base = self.lanes > 1 and self.is_uniform(node), BASE[g.types[node]]
+            text = constant(g.args[node][0], self.real)
+            return f"splat ({self.base[g.types[node]]} {text})" if spread and self.lanes > 1 else text
+        alike, base = self.lanes > 1 and self.is_uniform(node), self.base[g.types[node]]
         if node not in self._values:  # read where it is used, each time anew
             text = self._text_of(self._given(node), base if alike else self.vector)
             return self.spread(text, base) if alike and spread else text
@@ -283,4 +283,4 @@ def _suffix(kind: str) -> str:
     if kind.startswith("<"):
         count, _, base = kind[1:-1].partition(" x ")
         return f"v{count}{_suffix(base)}"
-    return "f64" if kind == "double" else kind
+    return {"double": "f64", "float": "f32"}.get(kind, kind)

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from typing import NamedTuple
 
 from tandemlift.compiler.tracer.symbol import Symbol
-from tandemlift.compiler.tracer.text import BASE, Place, Text, constant, double
+from tandemlift.compiler.tracer.text import Place, Text, constant, double
 
 WIDEST = 8  # values of a set per instruction in a flight alone
 
@@ -46,7 +46,7 @@ class Loop:
 
     def kind(self, type: str) -> str:
         """The type of a value in this loop."""
-        base = BASE[type]
+        base = self.f.base[type]
         lanes = self.f.lanes * self.width
         return base if lanes == 1 else f"<{lanes} x {base}>"
 
@@ -63,7 +63,7 @@ class Loop:
     def repeated(self, node: int, value: str) -> str:
         """A number, repeated for all values of this iteration."""
         f = self.f
-        base = BASE[f.graph.types[node]]
+        base = f.base[f.graph.types[node]]
         if f.graph.ops[node] == "const":
             return f"splat ({base} {value})"
         kind = f"<{self.width} x {base}>"
@@ -78,7 +78,7 @@ class Loop:
         value = "poison"
         for j in range(self.width):
             one = f.load(at.base, f.integer("add", at.first, f.integer("mul", f.integer("add", self.i, j), at.stride)))
-            value = f.op(f"insertelement {self.kind('f')} {value}, double {one}, i64 {j}")
+            value = f.op(f"insertelement {self.kind('f')} {value}, {f.real} {one}, i64 {j}")
         return value
 
     def address(self, at: Place) -> str:
@@ -93,7 +93,8 @@ class Loop:
 
     def constant(self, value: float) -> str:
         """A constant for all values of this iteration."""
-        return double(value) if self.kind("f") == "double" else f"splat (double {double(value)})"
+        text = double(value, self.f.real)
+        return text if self.kind("f") == self.f.real else f"splat ({self.f.real} {text})"
 
     def store(self, node: int, to: Place) -> None:
         """Store the values of this iteration."""
@@ -198,8 +199,8 @@ class Sets:
     def _constant_set(self, values: tuple[bytes, ...]) -> Place:
         f, to = self.f, self.room(len(values))
         for i, value in enumerate(values):
-            text = constant(value)
-            f.store(text if f.lanes == 1 else f"splat (double {text})", to.base, f.integer("add", to.first, i))
+            text = constant(value, f.real)
+            f.store(text if f.lanes == 1 else f"splat ({f.real} {text})", to.base, f.integer("add", to.first, i))
         return to
 
     def put(self, to: Place, symbols: Sequence[Symbol], kind: str = "") -> None:

@@ -19,6 +19,7 @@ class Nodes(Protocol):
     """The interface of a `Graph` for the symbols of its nodes; each method returns the number of a node."""
 
     counts: list[int]
+    real: str
 
     def node(self, op: str, args: tuple[Any, ...], kind: str, count: int = -1) -> int:
         """The node of an operation."""

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import operator
+import platform
 import struct
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator
@@ -12,14 +14,18 @@ from typing import Any, NamedTuple
 from tandemlift.compiler.tracer.graph import Graph
 from tandemlift.compiler.tracer.symbol import Symbol
 
-BASE = {"f": "double", "b": "i1", "i": "i64"}  # LLVM's name for each type of the graph
+BASE = {"b": "i1", "i": "i64", "w": "i32"}  # LLVM's name for each type of the graph; for `f` see `Graph.real`
 WIDE = '"prefer-vector-width"="512" "min-legal-vector-width"="512"'
 LONG = 8_000  # lines, from which on the instruction cache limits a function, which is then optimised for size
 ATTRIBUTES = [
     f"attributes #0 = {{ nounwind {WIDE} }}",
-    f"attributes #1 = {{ nounwind noinline {WIDE} }}",
-    f"attributes #2 = {{ nounwind noinline optsize minsize {WIDE} }}",
+    f"attributes #1 = {{ nounwind noinline alignstack=64 {WIDE} }}",
+    f"attributes #2 = {{ nounwind noinline optsize minsize alignstack=64 {WIDE} }}",
 ]
+# of a double and of a float: the distance from 1 to the next, and what rounds to whole numbers as it is added
+ROUNDING = {2.0**-52: 2.0**-23, 1.5 * 2.0**52: 1.5 * 2.0**23}
+SMALLEST, LARGEST = 2.0**-126, (2.0 - 2.0**-23) * 2.0**127  # normal floats
+IS_X86, FLUSH = platform.machine().lower() in ("x86_64", "amd64"), 0x8040  # MXCSR: results and operands too small are 0
 INTEGER_OPS = {"add": operator.add, "mul": operator.mul}
 
 
@@ -81,7 +87,8 @@ class Text(ABC):
         self.module, self.graph, self.lanes, self.head = module, graph, lanes, head
         self.read: dict[str, Callable[[int], str | Place]] = {}
         self.kept: dict[int, Callable[[], str | Place]] = {}
-        self.vector = "double" if lanes == 1 else f"<{lanes} x double>"
+        self.real, self.base = graph.real, {"f": graph.real, **BASE}
+        self.vector = self.real if lanes == 1 else f"<{lanes} x {self.real}>"
         self.zero = "0.0" if lanes == 1 else "zeroinitializer"
         self.lines: list[str] = ["entry:"]
         self._rooms: list[str] = []
@@ -173,6 +180,21 @@ class Text(ABC):
             yield
         self.label(done)
 
+    @contextmanager
+    def without_tiny_numbers(self) -> Iterator[None]:
+        """Take floats below the smallest normal one as 0 on x86, which is many times slower with them."""
+        if self.real == "double" or not IS_X86:
+            yield
+            return
+        self.module.declared |= {f"declare void @llvm.x86.sse.{name}mxcsr(ptr)" for name in ("ld", "st")}
+        self._rooms += [f"  %{name} = alloca i32, align 4" for name in ("modes", "before")]
+        self.do("call void @llvm.x86.sse.stmxcsr(ptr %before)")
+        modes = self.op(f"or i32 {self.op('load i32, ptr %before, align 4')}, {FLUSH}")
+        self.do(f"store i32 {modes}, ptr %modes, align 4")
+        self.do("call void @llvm.x86.sse.ldmxcsr(ptr %modes)")
+        yield
+        self.do("call void @llvm.x86.sse.ldmxcsr(ptr %before)")
+
     def any(self, truth: str) -> str:
         """Whether a truth holds in any lane."""
         if self.lanes == 1:
@@ -188,7 +210,7 @@ class Text(ABC):
         return self.op(f"getelementptr inbounds nuw {kind or self.vector}, ptr {base}, i64 {index}")
 
     def load(self, base: str, index: str | int = 0, kind: str = "") -> str:
-        """A value of all lanes from memory, or of another kind (`double`, `i64`, `ptr`)."""
+        """A value of all lanes from memory, or of another kind (`self.real`, `i64`, `ptr`)."""
         return self.op(f"load {kind or self.vector}, ptr {self.at(base, index, kind)}, align 8")
 
     def store(self, value: str, base: str, index: str | int = 0, kind: str = "") -> None:
@@ -219,22 +241,37 @@ class Text(ABC):
         self._rooms.append(f"  {name} = alloca {self.vector}, i64 {count}, align 64")
         return name
 
-    def spread(self, value: str, base: str = "double") -> str:
+    def spread(self, value: str, base: str = "") -> str:
         """A scalar in all lanes."""
         if self.lanes == 1:
             return value
+        base = base or self.real
         kind = f"<{self.lanes} x {base}>"
         first = self.op(f"insertelement {kind} poison, {base} {value}, i64 0")
         return self.op(f"shufflevector {kind} {first}, {kind} poison, <{self.lanes} x i32> zeroinitializer")
 
 
-def constant(value: Any) -> str:
-    """A constant of the graph as text."""
+def constant(value: Any, real: str = "double") -> str:
+    """A constant of a graph whose numbers are doubles or floats (`real`) as text."""
     if isinstance(value, bytes):
+        if real == "float":  # which LLVM, too, writes as a double
+            value = struct.pack("<d", nearest_float(struct.unpack("<d", value)[0]))
         return f"0x{struct.unpack('<Q', value)[0]:016X}"
     return str(value).lower()
 
 
-def double(value: float) -> str:
+def double(value: float, real: str = "double") -> str:
     """A number as text, to the last bit."""
-    return constant(struct.pack("<d", value))
+    return constant(struct.pack("<d", value), real)
+
+
+def nearest_float(x: float) -> float:
+    """The float that stands for a number in single precision.
+
+    A number too small for a normal float becomes the smallest, as it guards a division, and one that is too large the
+    largest; what belongs to the rounding of doubles becomes what belongs to that of floats.
+    """
+    if x == 0.0 or not math.isfinite(x):
+        return x
+    size = ROUNDING.get(abs(x)) or min(max(abs(x), SMALLEST), LARGEST)
+    return float(struct.unpack("<f", struct.pack("<f", math.copysign(size, x)))[0])

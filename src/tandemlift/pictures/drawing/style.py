@@ -7,8 +7,7 @@ colours, so that one drawing serves all palettes.
 
 from __future__ import annotations
 
-import struct
-import zlib
+import io
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext
 from contextvars import ContextVar
@@ -22,7 +21,6 @@ from cycler import cycler
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.backend_bases import RendererBase
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import LayoutEngine, PlaceHolderLayoutEngine
 from matplotlib.transforms import Bbox, ScaledTranslation, Transform
@@ -181,10 +179,11 @@ class StyledFigure(Figure):
 
     def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, bytes], dict[str, dict[str, int]]]:
         """The figure in a notebook: with the dots of a file, as large as in print, without pyplot."""
+        picture = io.BytesIO()
         with under(self.style):
-            picture = _png(self)
+            self.savefig(picture)
         width, height = (round(CSS_DOTS * side) for side in self.get_size_inches())
-        return {"image/png": picture}, {"image/png": {"width": width, "height": height}}
+        return {"image/png": picture.getvalue()}, {"image/png": {"width": width, "height": height}}
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw it, its colours from the style's palette."""
@@ -269,28 +268,5 @@ def save(figure: Figure, path: Path) -> Path:
     with atomic_write(path) as partial, under(style):
         if isinstance(figure, StyledFigure):
             figure.fix_labels()
-            if kind == "png":
-                partial.write_bytes(_png(figure))
-                return path
         figure.savefig(partial, format=kind, dpi=style.dots(figure.get_figwidth()), metadata=date)
     return path
-
-
-def _png(figure: StyledFigure) -> bytes:
-    """A figure as PNG: rows as they are, since most of them are paper; the filters of the library's cost the more."""
-    canvas = FigureCanvasAgg(figure)
-    canvas.draw()
-    rows, columns = (dots := np.asarray(canvas.buffer_rgba())).shape[:2]
-    lines = np.zeros((rows, 1 + 3 * columns), np.uint8)  # each begins with the number of its filter, 0 for none
-    lines[:, 1:] = dots[:, :, :3].reshape(rows, -1)
-    metre = round(figure.dpi / 0.0254)  # dots in one
-    parts = (
-        (b"IHDR", struct.pack(">IIBBBBB", columns, rows, 8, 2, 0, 0, 0)),
-        (b"pHYs", struct.pack(">IIB", metre, metre, 1)),
-        (b"IDAT", zlib.compress(lines.tobytes(), 3)),
-        (b"IEND", b""),
-    )
-    chunks = (
-        struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data)) for name, data in parts
-    )
-    return b"\x89PNG\r\n\x1a\n" + b"".join(chunks)

@@ -11,16 +11,15 @@ import numpy as np
 from tandemlift.compiler.machine_code import machine
 from tandemlift.compiler.machine_code.code import Code, Written
 from tandemlift.compiler.machine_code.store import key_of
-from tandemlift.compiler.tracer import Function
 from tandemlift.core.progress import always
+from tandemlift.simulation.loop.external_inputs import LANES
 from tandemlift.simulation.loop.sources import LeafSpan, delayed_spans, leaf_offset
 from tandemlift.simulation.loop.step import FlightModel, StepInputs
 from tandemlift.simulation.preparation.loops import LoopWriter
-from tandemlift.simulation.preparation.memory import AT, WORDS, FlightStart
+from tandemlift.simulation.preparation.many_blocks import write_many_blocks
+from tandemlift.simulation.preparation.memory import AT, FlightStart
 from tandemlift.simulation.preparation.templates import templates_from
 from tandemlift.simulation.preparation.traced_step import TracedStep
-
-CALL = ("contexts", "first", "end", "stop", "actions", "rows", "lanes", "place", "halted")  # words of `fly_blocks`
 
 PARTS = FlightModel._fields[1:]  # those with parameters
 DRAWN = "sensors"  # the one with numbers that are drawn by the seed
@@ -29,11 +28,16 @@ DRAWN = "sensors"  # the one with numbers that are drawn by the seed
 class LoopCode:
     """The compiled loops for flights laid out like `model`, with inputs laid out like `given`.
 
-    Each loop is compiled on first use. `fuses`: whether a·b + c is rounded once.
+    Each loop is compiled on first use. `fuses`: whether a·b + c is rounded once. `single`: whether its numbers are
+    floats; then there are only loops for blocks.
+
+    Attributes:
+        lanes: flights of a block.
     """
 
-    def __init__(self, model: FlightModel, given: StepInputs, *, fuses: bool = True) -> None:
-        self.templates, self.fuses = templates_from(model, given), fuses
+    def __init__(self, model: FlightModel, given: StepInputs, *, fuses: bool = True, single: bool = False) -> None:
+        self.templates, self.fuses, self.single = templates_from(model, given), fuses, single
+        self.lanes = 2 * LANES if single else LANES
         self.delayed = delayed_spans(self.templates.model)
         self._lock, self._codes = threading.RLock(), dict[tuple[str, int], Code]()
         self._own = set[str]()
@@ -41,12 +45,12 @@ class LoopCode:
     @cached_property
     def traced(self) -> TracedStep:
         """The graph of a step."""
-        return TracedStep(self.templates, fuses=self.fuses)
+        return TracedStep(self.templates, fuses=self.fuses, single=self.single)
 
     def loop(
         self, lanes: int, going: Callable[[], bool] = always, *, differ: Collection[str] = (), around: object = None
     ) -> Code:
-        """`fly`, the loop over steps, for one flight or for a block of LANES; compiled only while `going()` is true.
+        """`fly`, the loop over steps, for one flight or for a block of `lanes`; compiled only while `going()` is true.
 
         `around`: a body in another engine, if there is one.
 
@@ -65,7 +69,7 @@ class LoopCode:
 
     def parts_that_differ(self, starts: Sequence[FlightStart]) -> set[str]:
         """The parts of a `FlightModel` in whose parameters flights differ by a bit; all if these have most of them."""
-        numbers = np.array([start.numbers for start in starts]).view(np.int64)
+        numbers = np.array([start.numbers for start in starts]).view(np.int32 if self.single else np.int64)
         differ = (numbers != numbers[0]).any(axis=0)
         found = {name: size for name, (at, size) in self._spans.items() if differ[at : at + size].any()}
         return set(found if 2 * sum(found.values()) < sum(span.size for span in self._spans.values()) else PARTS)
@@ -90,7 +94,7 @@ class LoopCode:
     def key(self, kind: str, number: int) -> str:
         """The key of the code of a loop or of parts by its sources (`key_of`)."""
         x = self.templates
-        return key_of((x.model, x.given), kind, number, x.nowhere, self.fuses)
+        return key_of((x.model, x.given), kind, number, x.nowhere, self.fuses, self.single)
 
     def written(self, kind: str, number: int) -> Written:
         """The module of a loop or of parts as text."""
@@ -100,34 +104,8 @@ class LoopCode:
             step = LoopWriter(self.traced, lanes, alike=[i for at, size in alike for i in range(at, at + size)])
             text = step.write_parts(bool(number)) if what == "parts" else step.write_loop(around=what == "around")
             if lanes > 1:
-                write_many_blocks(step)
+                write_many_blocks(step, AT)
                 text = step.module.text
             spans = {name: span for name, span in step.scratch.spans.items() if "_" not in name}
-            return Written(text, {"size": step.scratch.size, "rooms": spans, "own": own})
-
-
-def write_many_blocks(step: LoopWriter) -> None:
-    """`fly_blocks`: hand the caller's actions to some blocks, and fly each on to a step, or to where a flight halts it.
-
-    `halted` counts the blocks that a flight halts.
-    """
-    f = Function(step.module, step.graph, 1, "i64 @fly_blocks(ptr %call) #0")
-    word = {
-        name: f.load("%call", i, "ptr" if name in ("contexts", "actions") else "i64") for i, name in enumerate(CALL)
-    }
-    vector, halted = step.vector, CALL.index("halted")
-    with f.repeat(word["end"], word["first"]) as b:
-        context = f.at(word["contexts"], f.integer("mul", b, len(WORDS)), "i64")
-        work = f.load(context, AT["work"], "ptr")
-        with f.repeat(word["rows"]) as row:
-            number = f.integer("add", f.integer("mul", row, word["lanes"]), f.integer("mul", b, step.lanes))
-            given = f.op(f"load {vector}, ptr {f.at(word['actions'], number, 'double')}, align 8")
-            f.store(given, work, f.integer("add", row, word["place"]), vector)
-        f.store(word["stop"], context, AT["stop"], "i64")
-        f.store(f.integer("sub", word["stop"], 1), context, AT["show"], "i64")
-        reached = f.op(f"call i64 @fly(ptr {context})")
-        f.store(reached, context, AT["k"], "i64")
-        f.store("0", context, AT["fresh"], "i64")
-        with f.when(step.is_halted(f, f.load(context, AT["flight"], "ptr"), work)):
-            f.store(f.integer("add", f.load("%call", halted, "i64"), 1), "%call", halted, "i64")
-    f.end("i64 0")
+            about = {"size": step.scratch.size, "rooms": spans, "own": own, "rests": len(self.traced.rests)}
+            return Written(text, about)

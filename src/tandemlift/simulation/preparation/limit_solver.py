@@ -102,25 +102,40 @@ def limit_thrusts(graph: Graph, trace: Callable[[Any], Any], pilot: Any, held: A
     return needs, trace(with_thrusts)(decision, commands), trace(with_allocation)(output.memory, solved)
 
 
-def write_limits(f: Function, needs: LimitProblem, at: int) -> None:
+def write_limits(f: Function, needs: LimitProblem, at: int, exact: int = 0) -> None:
     """Write thrusts within limits and the working set to scratch memory, behind the problem.
 
     Args:
         f: the function that is written.
-        needs: the problem.
+        needs: the `LimitProblem`.
         at: where problem and search stand in scratch memory.
+        exact: where they stand as doubles beside floats: the search is in doubles, as what is parallel or out of reach
+            is a matter of rounding.
     """
     search = at + len(needs.problem)
     beyond = f.value(needs.beyond)
     f.put("%work", search, needs.plain)
     with f.when(f.any(beyond)):
-        f.put("%work", at, needs.problem)
-        f.put("%work", search, needs.search)
-        f.do(f"call void @solve(ptr {f.at('%work', at)})")
+        if f.real == "double":
+            f.put("%work", at, needs.problem)
+            f.put("%work", search, needs.search)
+            f.do(f"call void @solve(ptr {f.at('%work', at)})")
+        else:
+            _solve_in_doubles(f, needs, search, exact)
+
+
+def _solve_in_doubles(f: Function, needs: LimitProblem, search: int, exact: int) -> None:
+    wide, at = f"<{f.lanes} x double>", f.at("%work", exact)
+    for i, value in enumerate(f.values([*needs.problem, *needs.search])):
+        f.store(f.op(f"fpext {f.vector} {value} to {wide}"), at, i, wide)
+    f.do(f"call void @solve(ptr {at})")
+    for i in range(len(needs.plain)):
+        value = f.load(at, len(needs.problem) + i, wide)
+        f.store(f.op(f"fptrunc {wide} {value} to {f.vector}"), "%work", search + i)
 
 
 def write_solver(module: Module, solver: TracedSolver, lanes: int) -> None:
-    """The function `solve`: search until all lanes have ended; lanes that ended before stay as they are."""
+    """The function `solve` of a `TracedSolver`: search until all lanes have ended; lanes that have ended stay so."""
     f = Function(module, solver.graph, lanes, "internal void @solve(ptr noalias %s) #1")
     search = solver.problem_size
     f.read = {"problem": lambda i: Place("%s", i), "search": lambda i: Place("%s", search + i)}

@@ -68,7 +68,7 @@ class LoopWriter(StepWriter):
         """Solve for thrusts within limits in the lanes whose thrusts exceed them."""
         needs = self.traced.limits
         if needs is not None:
-            write_limits(f, needs, self.solving)
+            write_limits(f, needs, self.solving, self.exact)
 
     def step_body(self, f: Function) -> None:
         """Move the body over the step."""
@@ -87,10 +87,12 @@ class LoopWriter(StepWriter):
         bodies = {near: x.body_in_contact, feet: x.body_on_feet, clear: x.body_in_free_air}
         for name, values in bodies.items():
             f.lines.append(f"{name}:")
-            f.store(double(float(name == near)), "%work", self.near * self.lanes, "double")
+            f.store(double(float(name == near)), "%work", self.near * self.lanes, f.real)
             f.seldom = name == near
             with f.scope():
                 f.update("%work", self.moved, values if name == near else values[: self.moved_touches])
+                if self.traced.rests:
+                    f.put("%work", self.moved + self.moved_end, values[self.moved_end :])
             f.do(f"br label %{done}")
         f.seldom = False
         f.lines.append(f"{done}:")
@@ -104,12 +106,12 @@ class LoopWriter(StepWriter):
         places = self.acting + thrusts, self.acting + loads.at, self.push, moved, moved + self.moved_touches
         given = [f.at("%work", at) for at in places]
         given[1] = given[1] if loads.size else "null"
-        words = f.load("%work", self.words, "ptr")
+        words = f.load("%work", self.machine_words, "ptr")
         f.do(f"call void {f.load(words, 0, 'ptr')}({', '.join(f'ptr {address}' for address in (words, *given))})")
 
     def _choose_body(self, f: Function, near: str, feet: str, clear: str) -> None:
         """Branch to the body near walls or with all its parts near the floor, on its feet, or in free air."""
-        low = f.op(f"fcmp one double {f.load('%work', self.low * self.lanes, 'double')}, 0.0")
+        low = f.op(f"fcmp one {f.real} {f.load('%work', self.low * self.lanes, f.real)}, 0.0")
         walls, lower, tipped = "false", f.fresh("lower"), f.fresh("tipped")
         for value in f.values(self.traced.may_touch_walls):
             walls = f.op(f"or i1 {walls}, {f.any(value)}")
@@ -144,14 +146,14 @@ class LoopWriter(StepWriter):
 
     def write_loop(self, *, around: bool = False) -> str:
         """`fly`: steps k to stop − 1, fewer if a flight alone ends before; `around`: a body in another engine."""
-        self.moves_body, self.words = not around, self.scratch.take("body", 1) if around else 0
+        self.moves_body, self.machine_words = not around, self.scratch.take("body", 1) if around else 0
         self.hold_parts()
         self.write_outside()
         f = self.function("fly_", result="i64")
         begin, stop, steps = self.context_word(f, "k"), self.context_word(f, "stop"), self.context_word(f, "steps")
-        kept = self.prepare(
-            f, begin, [*self.traced.next_state, *self.traced.sample, *self.body_roots(), *self.limit_roots()]
-        )
+        x = self.traced
+        roots = [*x.next_state, *x.rests, *x.sample, *self.body_roots(), *self.limit_roots()]
+        kept = self.prepare(f, begin, roots)
         f.label("first")
         f.label("loop")
         f.lines.append(f"  %k = phi i64 [ {begin}, %first ], [ %next, %ahead ]")
@@ -205,8 +207,7 @@ class LoopWriter(StepWriter):
         """Write a step as functions of some `largest` operations each, which are called one after another."""
         x, sampling = self.traced, list[str]()
         end = [*x.next_state, *x.sample]
-        body = [*self.body_roots(), *end]
-        acting = [*x.body.acting, *x.body.push]
+        body, acting = [*self.body_roots(), *end], [*x.body.acting, *x.body.push]
         if x.limits:
             sampling += self._pieces("limits", kept, self.limit_roots(), [*acting, *body])
             sampling += [self._piece("solving", self.limit_thrusts, kept, [*acting, *body])]
@@ -291,7 +292,7 @@ class LoopWriter(StepWriter):
             self.call(f, "sum_pushes", f"i64 {k}")
             if self.free_draws and self.lanes == 1:
                 self.call(f, "draw_noise", f"i64 {k}")
-            f.store(double(float(self.templates.has_floor)), "%work", self.low * self.lanes, "double")
+            f.store(double(float(self.templates.has_floor)), "%work", self.low * self.lanes, f.real)
             f.put("%work", self.moved + self.moved_touches, self.traced.touches_before)
             kept.store(f, [n for n in own if not f.is_uniform(n) and self.graph.ops[n] not in LEAVES])
             kept.store_alike(f, alike)

@@ -7,12 +7,13 @@ a step keeps for its later parts.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.compiler.machine_code.code import Code
+from tandemlift.compiler.tracer.text import LARGEST, SMALLEST
 from tandemlift.core.types import flat
 from tandemlift.engines.registry import MachineBody
 from tandemlift.parts.interaction.person import PathLeg
@@ -21,7 +22,7 @@ from tandemlift.parts.mechanics.wall_geometry import Wall
 from tandemlift.parts.mechanics.wind import Gust
 from tandemlift.simulation.loop.external_inputs import ROWS, InputTables
 
-Numbers = NDArray[np.float64]
+Numbers = NDArray[Any]  # doubles, or floats
 Words = NDArray[np.int64]
 IDLE = ROWS._replace(pushes=ROWS.pushes._replace(per_sigma=1.0))  # rows without effect
 NEVER = -1  # the number of no step
@@ -41,15 +42,22 @@ POINTERS = WORDS[:12]
 MEMORY = "ptr noalias %c, ptr noalias %flight, ptr noalias %work"  # arguments of the internal functions
 
 
-def aligned(size: int) -> NDArray[np.float64]:
-    """Zeros that begin at a multiple of 64 bytes: a vector of eight never crosses a line of the processor's cache."""
-    padded = np.zeros(size + 8)
+def aligned(size: int, kind: Any = np.float64) -> NDArray[Any]:
+    """Zeros that begin at a multiple of 64 bytes: a vector of as many never crosses a line of the processor's cache."""
+    padded = np.zeros(size + 64 // np.dtype(kind).itemsize, kind)
     first = -padded.ctypes.data % 64 // padded.itemsize
     return padded[first : first + size]
 
 
+def in_floats(numbers: Any) -> NDArray[np.float32]:
+    """Numbers as floats; one too small or too large for a normal float becomes the smallest or the largest."""
+    exact = np.asarray(numbers, dtype=np.float64)
+    near = np.copysign(np.clip(np.abs(exact), SMALLEST, LARGEST), exact)
+    return np.where((exact == 0.0) | ~np.isfinite(exact), exact, near).astype(np.float32)
+
+
 class FlightStart(NamedTuple):
-    """A flight at its first step: numbers, tables, delay lines (rows × numbers), and the key of its random numbers."""
+    """A flight at its first step: numbers, in its precision, tables, delay lines (rows × numbers), key of its noise."""
 
     numbers: Numbers
     tables: InputTables
@@ -76,7 +84,7 @@ class FlightMemory:
         grid: of time steps, the same for all lanes.
         columns: numbers of a sample.
         machine: the body, if it is in another engine.
-        shared: arrays in which its numbers and its context shall stand; by default, arrays of its own.
+        shared: arrays in which its numbers, its context and its scratch memory shall stand; by default, its own.
 
     Attributes:
         numbers: of all flights, interleaved: number i of lane l stands at i · lanes + l.
@@ -92,16 +100,18 @@ class FlightMemory:
         starts: Sequence[FlightStart],
         grid: TimeGrid,
         columns: int,
-        shared: tuple[Numbers, Words] | None = None,
+        shared: tuple[Numbers, Words, Numbers] | None = None,
         machine: MachineBody | None = None,
     ) -> None:
-        self.grid, self.k, self.starts, lanes = grid, 0, list(starts), len(starts)
+        self.grid, self.k, self.starts, lanes, self.kind = grid, 0, list(starts), len(starts), starts[0].numbers.dtype
         self.machine = machine
-        own = aligned(starts[0].numbers.size * lanes), np.zeros(len(WORDS), dtype=np.int64)
-        self.numbers, self._context = shared or own
-        self.ring, self.keys = aligned(starts[0].ring.size * lanes), aligned(starts[0].keys.size * lanes)
-        self.use(code)
-        self.log, self.last = np.zeros((lanes, grid.rows, columns)), np.full(columns, np.nan)
+        size = starts[0].numbers.size + code.about["rests"]
+        own = [aligned(n * lanes, self.kind) for n in (size, code.about["size"])]
+        self.numbers, self._context, work = shared or (own[0], np.zeros(len(WORDS), dtype=np.int64), own[1])
+        self.ring, self.keys = aligned(starts[0].ring.size * lanes, self.kind), aligned(starts[0].keys.size * lanes)
+        self.use(code, work)
+        logs = 1 if all(start is starts[0] for start in starts) else lanes  # the same in all lanes
+        self.log, self.last = np.zeros((logs, grid.rows, columns)), np.full(columns, np.nan)
         arrays = (self.numbers, self.work, self.ring, grid.delays, self.keys, self.log, self.last)
         for word, array in zip(WORDS, arrays, strict=False):
             self.put(word, array.ctypes.data)
@@ -110,16 +120,16 @@ class FlightMemory:
         self._write_tables()
         self.rings = len(starts[0].ring)
         self.put("rings", self.rings)
-        self.put("stride", grid.rows * columns)
+        self.put("stride", grid.rows * columns * (logs > 1))
         self.put("steps", grid.steps)
         self.put("every", grid.every)
         self.put("show", NEVER)
         self._context.view(np.float64)[AT["dt"]] = grid.dt
         self.address = self._context.ctypes.data
 
-    def use(self, code: Code) -> None:
-        """Fly on in other code."""
-        self.code, self.work = code, aligned(code.about["size"] * len(self.starts))
+    def use(self, code: Code, work: Numbers) -> None:
+        """Fly on in other code, with other scratch memory."""
+        self.code, self.work = code, work
         self.put("work", self.work.ctypes.data)
         self.put("fresh", 1)
 
@@ -135,10 +145,13 @@ class FlightMemory:
     def _write(self, lane: int) -> None:
         start, lanes = self.starts[lane], len(self.starts)
         for array, own in ((self.numbers, start.numbers), (self.ring, start.ring), (self.keys, start.keys)):
-            array.reshape(-1, lanes)[:, lane] = own.ravel()
+            rows = array.reshape(-1, lanes)[:, lane]
+            rows[: own.size], rows[own.size :] = own.ravel(), 0.0
 
     def _write_tables(self) -> None:
-        self._tables = [_table(tables, idle) for tables, idle in zip(self._tables_of_lanes, IDLE, strict=True)]
+        self._tables = [
+            _table(tables, idle, self.kind) for tables, idle in zip(self._tables_of_lanes, IDLE, strict=True)
+        ]
         for word, table in zip(TABLES, self._tables, strict=True):
             self.put(word, table.ctypes.data)
         for word, tables in zip(COUNTS, self._tables_of_lanes, strict=True):
@@ -179,14 +192,14 @@ class FlightMemory:
     def span(self, name: str) -> slice:
         """The place of a span of the scratch memory."""
         at, size = self.code.about["rooms"][name]
-        lanes = len(self.log)
+        lanes = len(self.starts)
         return slice(at * lanes, (at + size) * lanes)
 
 
-def _table(tables: Sequence[Numbers], idle: Wall | GaussianPush | Gust | PathLeg) -> Numbers:
+def _table(tables: Sequence[Numbers], idle: Wall | GaussianPush | Gust | PathLeg, kind: Any) -> Numbers:
     """A table of all lanes: row i holds row i of every lane's table, an idle row where a lane has fewer."""
     lanes, numbers = len(tables), flat(idle)
-    woven = aligned(max(map(len, tables)) * len(numbers) * lanes)
+    woven = aligned(max(map(len, tables)) * len(numbers) * lanes, kind)
     rows = woven.reshape(-1, len(numbers), lanes)
     rows[:] = np.array(numbers)[:, None]
     for lane, own in enumerate(tables):

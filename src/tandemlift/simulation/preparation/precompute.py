@@ -65,7 +65,7 @@ def write_draw(step: StepWriter, name: str, draws: Sequence[int]) -> None:
     keys = step.context_word(f, "keys")
     if step.lanes > 1:
         own = step.own(f, "%k")
-        f.read = {"number": lambda m: own, "key": lambda m: f.load(keys, m)}
+        f.read = {"number": lambda m: own, "key": step.key_of(f, keys).__getitem__}
         for i in draws:
             for m, value in enumerate(f.values(step.traced.normals[i])):
                 f.store(value, "%work", step.noise + 4 * i + m)
@@ -111,7 +111,7 @@ def write_surroundings(step: StepWriter) -> None:
     x, f = step.templates, step.function("find_surroundings", ", i64 %k")
     if x.has_floor:
         low = f.any(f.value(step.traced.may_touch_floor))
-        f.store(f.op(f"uitofp i1 {low} to double"), "%work", step.low * step.lanes, "double")
+        f.store(f.op(f"uitofp i1 {low} to {f.real}"), "%work", step.low * step.lanes, f.real)
     if x.has_person:
         _find_legs(step, f)
     f.end()
@@ -144,13 +144,14 @@ def _find_legs(step: StepWriter, f: Function) -> None:
     for lane in range(lanes):
         is_due = begins if lanes == 1 else f.op(f"extractelement <{lanes} x i1> {begins}, i64 {lane}")
         with f.when(is_due):
-            number = f.load("%flight", index * lanes + lane, "double")
-            i = f.call("i64", "@llvm.fptosi.sat.i64.f64", number, types=["double"])
+            number = f.load("%flight", index * lanes + lane, f.real)
+            name = f"@llvm.fptosi.sat.i64.{'f64' if f.real == 'double' else 'f32'}"
+            i = f.call("i64", name, number, types=[f.real])
             i = f.call("i64", "@llvm.smax.i64", i, "0", types=["i64", "i64"])
             i = f.call("i64", "@llvm.smin.i64", i, last, types=["i64", "i64"])
             row = f.at(legs, f.integer("mul", i, leaves(ROWS.legs)))
             for m in range(leaves(ROWS.legs)):
-                f.store(f.load(row, m * lanes + lane, "double"), "%flight", (leg + m) * lanes + lane, "double")
+                f.store(f.load(row, m * lanes + lane, f.real), "%flight", (leg + m) * lanes + lane, f.real)
 
 
 def steady(graph: Graph, roots: Symbols, state_size: int) -> dict[int, bool]:
@@ -192,12 +193,12 @@ class ScratchValues:
         first = self.scratch.take("alike_", -(-len(nodes) // f.lanes)) * f.lanes
         self.alike = {node: i for i, node in enumerate(nodes, first)}
         for node, i in self.alike.items():
-            f.store(f.scalar(Symbol(self.graph, node, "f")), "%work", i, "double")
+            f.store(f.scalar(Symbol(self.graph, node, "f")), "%work", i, f.real)
 
     def bind(self, f: Function) -> None:
         """Make a function read the stored nodes instead of computing them."""
         f.kept |= {node: functools.partial(Place, "%work", at) for node, at in self.at.items()}
-        f.kept |= {node: functools.partial(f.load, "%work", i, "double") for node, i in self.alike.items()}
+        f.kept |= {node: functools.partial(f.load, "%work", i, f.real) for node, i in self.alike.items()}
 
     def store_for_later(self, f: Function, later: Symbols) -> None:
         """Store the values known now that the later parts of the step need."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 
-from tandemlift.compiler.tracer import LEAVES, Function, Place, Symbol, double
+from tandemlift.compiler.tracer import LEAVES, Function, Place, Symbol
 from tandemlift.simulation.loop.sources import HeldPart, LeafSpan, leaf_offset
 from tandemlift.simulation.preparation.step_writer import StepWriter
 from tandemlift.simulation.preparation.traced_step import Symbols
@@ -61,7 +61,9 @@ def _log_lanes(step: StepWriter, f: Function, row: str) -> None:
         to = f.integer("add", f.integer("mul", lane, stride), f.integer("mul", row, columns))
         with f.repeat(columns) as m:
             at = f.integer("add", f.integer("mul", f.integer("add", m, step.sample), step.lanes), lane)
-            f.store(f.load("%work", at, "double"), log, f.integer("add", to, m), "double")
+            value = f.load("%work", at, f.real)
+            value = value if f.real == "double" else f.op(f"fpext float {value} to double")
+            f.store(value, log, f.integer("add", to, m), "double")
 
 
 def _numbers_of_each_step(step: StepWriter) -> Symbols:
@@ -116,10 +118,12 @@ def write_next_state(step: StepWriter, f: Function, k: str, done: set[int] | Non
     read = _read_by_detectors(step, f, [s.node for s in after], detectors) if watches else []
     if f.orders:
         f.hold(s.node for s in read if step.graph.ops[s.node] == "in" and s.node not in f.same)
-    f.update("%flight", 0, after, "fly", read, done)
+    f.update("%flight", 0, after, "fly", [*read, *step.traced.rests], done)
+    if step.traced.rests:
+        f.put("%flight", step.numbers, step.traced.rests)
     if step.keeps_touches:
-        near = f.load("%work", step.near * step.lanes, "double")
-        with f.when(f.op(f"fcmp one double {near}, 0.0")):
+        near = f.load("%work", step.near * step.lanes, f.real)
+        with f.when(f.op(f"fcmp one {f.real} {near}, 0.0")):
             at, size = step.touches
             f.put("%flight", at, step.traced.next_state[at : at + size])
     if watches:
@@ -171,9 +175,8 @@ def _write_detectors(step: StepWriter, f: Function, at: LeafSpan) -> None:
 def _awake(step: StepWriter, f: Function, at: int) -> str:
     """Whether the number at a place of the state is other than 0 before or after the step, in any lane."""
     kind = f.vector
-    zero = double(0.0) if step.lanes == 1 else "zeroinitializer"
-    before = f.op(f"fcmp one {kind} {f.load('%flight', at)}, {zero}")
-    after = f.op(f"fcmp one {kind} {f.value(step.traced.next_state[at])}, {zero}")
+    before = f.op(f"fcmp one {kind} {f.load('%flight', at)}, {f.zero}")
+    after = f.op(f"fcmp one {kind} {f.value(step.traced.next_state[at])}, {f.zero}")
     both = f.op(f"or {'i1' if step.lanes == 1 else f'<{step.lanes} x i1>'} {before}, {after}")
     return f.any(both)
 

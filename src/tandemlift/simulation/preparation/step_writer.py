@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from tandemlift.compiler.tracer import Function, Module, Place, ScratchLayout, double
 from tandemlift.core.types import leaves
 from tandemlift.simulation.loop.external_inputs import HALVES, SPAN
+from tandemlift.simulation.loop.random_numbers import MASK
 from tandemlift.simulation.loop.sources import HeldPart, delayed_spans, held_parts, leaf_offset
 from tandemlift.simulation.preparation.memory import AT, MEMORY, POINTERS
 from tandemlift.simulation.preparation.traced_step import Symbols, TracedStep
@@ -30,15 +31,19 @@ class StepWriter:
     ) -> None:
         self.traced, self.templates, self.graph, self.lanes = traced, traced.templates, traced.graph, lanes
         self.module, self.scratch, self.draw_lanes, self.largest = Module(), ScratchLayout(), draw_lanes, largest
-        self.moves_body, self.words, self.uniform = True, 0, ("dt", *[("fly", i) for i in alike])
+        self.moves_body, self.machine_words, self.uniform = True, 0, ("dt", *[("fly", i) for i in alike])
         self.width, self.draws = leaves(self.templates.given.hand.start), 0
         self.held, self.drawn, self.fresh = list[HeldPart](), dict[int, int](), dict[int, str]()
         self.state_size = leaves(self.templates.model.flight_state)
-        self.vector = "double" if lanes == 1 else f"<{lanes} x double>"
+        self.real, self.numbers = traced.graph.real, leaves(self.templates.model)
+        self.vector = self.real if lanes == 1 else f"<{lanes} x {self.real}>"
         self.delayed = delayed_spans(self.templates.model)
         self.ended = leaf_offset(self.templates.model, "flight_state", "ended").at
         self.touches = leaf_offset(self.templates.model, "flight_state", "touches")
-        self.moved_touches = leaf_offset(self.templates.moved, "touches").at
+        self.moved_touches, self.moved_end = (
+            leaf_offset(self.templates.moved, "touches").at,
+            leaves(self.templates.moved),
+        )
         g, roots = self.graph, [s.node for s in self.all_roots]
         self.has_gusts = any(g.ops[n] == "in" and g.args[n][0] == "gust" for n in g.needed(roots))
         self._lay_out_scratch()
@@ -47,7 +52,7 @@ class StepWriter:
     def all_roots(self) -> Symbols:
         """Every value that a step computes."""
         x = self.traced
-        end = [*x.next_state, *x.sample, *self.body_roots(), *self.limit_roots()]
+        end = [*x.next_state, *x.rests, *x.sample, *self.body_roots(), *self.limit_roots()]
         return [*end, *x.asked, *x.body.acting, *x.body.push]
 
     def hold_parts(self) -> None:
@@ -88,6 +93,11 @@ class StepWriter:
             values[i] = self.graph.input("fly", i)
         return values
 
+    @property
+    def words(self) -> int:
+        """Places that a double, or an integer, takes beside floats; 0 beside doubles."""
+        return 0 if self.real == "double" else 2
+
     def _lay_out_scratch(self) -> None:
         x, take = self.templates, self.scratch.take
         self.pushes_at = take("hands", HALVES * self.width)
@@ -98,13 +108,14 @@ class StepWriter:
         self.acting = take("acting", len(self.traced.body.acting))
         self.external = take("external", leaves(x.given.external))
         self.outside = take("outside", leaves(x.given.outside))
-        self.push, self.moved = take("push", 6), take("moved", leaves(x.moved))
+        self.push, self.moved = take("push", 6), take("moved", len(self.traced.body_in_contact))
         needs = self.traced.limits
-        self.solving = take("solving", len(needs.problem) + len(needs.search) if needs else 0)
+        solving = len(needs.problem) + len(needs.search) if needs else 0
+        self.solving, self.exact = take("solving", solving), take("exact", solving * self.words)
         self.sample = take("sample", leaves(x.sample) if self.lanes > 1 else 0)
         self.low, self.near, self.due = take("low", 1), take("near", 1), take("due", 1)
         in_block = int(self.lanes > 1)
-        self.begun, self.halts = take("begun", in_block), take("halts", in_block)
+        self.begun, self.halts = take("begun", in_block * (1 + self.words // 2)), take("halts", in_block)
 
     def function(self, name: str, more: str = "", result: str = "void") -> Function:
         """An internal function whose arguments are the context %c, the flight, the scratch memory, and `more`."""
@@ -112,14 +123,27 @@ class StepWriter:
         f = Function(self.module, self.graph, self.lanes, head, self.uniform)
         f.lines.append(f"  %dt = load double, ptr {f.at('%c', AT['dt'], 'i64')}, align 8")
         f.sets.room = lambda count: Place("%work", self.scratch.take(f"room_{self.scratch.size}", count))
-        f.read = {"fly": lambda i: Place("%flight", i), "dt": lambda i: "%dt"}
+        f.read = {"fly": lambda i: Place("%flight", i), "rest": lambda i: Place("%flight", self.numbers + i)}
+        step = "%dt" if self.real == "double" else f.op("fptrunc double %dt to float")
+        f.read["dt"] = lambda i: step
         return f
 
     def export(self, name: str) -> None:
         """A function for Python, with the context as its only argument, that calls the internal one of that name."""
         f = Function(self.module, self.graph, self.lanes, f"i64 @{name}(ptr %c) #0")
         given = [f"ptr {self.context_word(f, word)}" for word in ("flight", "work")]
-        f.end("i64 " + f.op(f"call i64 @{name}_({', '.join(['ptr %c', *given])})"))
+        with f.without_tiny_numbers():
+            result = f.op(f"call i64 @{name}_({', '.join(['ptr %c', *given])})")
+        f.end(f"i64 {result}")
+
+    def key_of(self, f: Function, keys: str) -> list[str]:
+        """The two words of the key of each flight's random numbers: integers in single precision."""
+        exact, whole = (f"<{self.lanes} x {kind}>" for kind in ("double", "i64"))
+        words = [f.load(keys, m, exact) for m in (0, 1)]
+        if self.real == "double":
+            return words
+        found = [f.op(f"fptosi {exact} {x} to {whole}") for x in words]
+        return [f.op(f"and {whole} {x}, splat (i64 {MASK})") for x in found]  # which tells LLVM that they have 32 bits
 
     def call(self, f: Function, name: str, *more: str) -> None:
         """Call another internal function."""
@@ -135,7 +159,7 @@ class StepWriter:
         if self.lanes == 1:
             return k
         kind = f"<{self.lanes} x i64>"
-        begun = f.load("%work", self.begun, kind)
+        begun = f.load(f.at("%work", self.begun), 0, kind)
         if times > 1:
             begun = f.op(f"mul {kind} {begun}, splat (i64 {times})")
         return f.op(f"sub {kind} {f.spread(k, 'i64')}, {begun}")
@@ -144,8 +168,10 @@ class StepWriter:
         """The time of step k, or of a part of it: k of `times` as many."""
         counted = self.own(f, k, times)
         step = "%dt" if times == 1 else f.op(f"fmul double %dt, {double(1.0 / times)}")
-        number = f.op(f"sitofp {'i64' if self.lanes == 1 else f'<{self.lanes} x i64>'} {counted} to {f.vector}")
-        return f.op(f"fmul {f.vector} {number}, {f.spread(step)}")
+        words, exact = (kind if self.lanes == 1 else f"<{self.lanes} x {kind}>" for kind in ("i64", "double"))
+        number = f.op(f"sitofp {words} {counted} to {exact}")
+        time = f.op(f"fmul {exact} {number}, {f.spread(step, 'double')}")
+        return time if exact == f.vector else f.op(f"fptrunc {exact} {time} to {f.vector}")
 
     def is_halted(self, f: Function, flight: str = "%flight", work: str = "%work") -> str:
         """Whether a flight has ended, so that no further step may be taken; in a block, one of those that halt it."""
@@ -155,7 +181,7 @@ class StepWriter:
         if self.lanes == 1:
             return held[0]
         both = f.op(f"and <{self.lanes} x i1> {held[0]}, {held[1]}")
-        return f.op(f"icmp ne i8 {f.op(f'bitcast <{self.lanes} x i1> {both} to i{self.lanes}')}, 0")
+        return f.op(f"icmp ne i{self.lanes} {f.op(f'bitcast <{self.lanes} x i1> {both} to i{self.lanes}')}, 0")
 
     def begins_span(self, f: Function, k: str) -> str:
         """Whether step k begins a span of each flight."""

@@ -2,7 +2,7 @@
 
 Inputs by kind: `fly` (leaf of the flight), `hand`, `gust`, `noise`, `t`, `dt`; `answer` of a controller in Python;
 `solved`, the limit solver's result; `external`, the input of a step's caller; `moved`, the body after the step, and
-`outside`, the push on it from outside the loop.
+`outside`, the push on it from outside the loop; `rest`, what compensated sums left over.
 Inputs of values computed before the step: `push`, `gusts`, `wall` (rows), `begins`, `due`, `when`, `number`, `key`.
 """
 
@@ -11,8 +11,10 @@ from __future__ import annotations
 from functools import cached_property
 from typing import Any, NamedTuple
 
+from tandemlift.compiler.single import compensated
 from tandemlift.compiler.tracer import Graph, Symbol, TraceError, laid_out, refused, symbols, tracer, written_out
 from tandemlift.core.algebra import chosen, where
+from tandemlift.core.types import leaves
 from tandemlift.core.vector import ZERO, layout
 from tandemlift.engines.compiled import BodyStep, first_motion
 from tandemlift.engines.compiled_contact import CompiledPlant, on_feet_only, without_contact
@@ -33,16 +35,18 @@ from tandemlift.simulation.loop.external_inputs import (
     push_is_active,
     walls_are_due,
 )
+from tandemlift.simulation.loop.sources import leaf_offset
 from tandemlift.simulation.preparation.limit_solver import LimitProblem, limit_thrusts
 from tandemlift.simulation.preparation.templates import COMMAND, Templates
 
 Symbols = list[Symbol]
+UNCOMPENSATED = ("state", "sensing", "estimator", "detectors")  # parts of a flight's state
 MANY = 5  # quadrotors from which on sets are arrays in memory, and operations on them loops
 
 
-def graph_for(quadrotors: int, *, rolls: bool = True) -> Graph:
+def graph_for(quadrotors: int, *, rolls: bool = True, real: str = "double") -> Graph:
     """An empty graph for the laws of a number of quadrotors; `rolls`: whether large sets may be loops."""
-    return Graph(MANY if rolls and quadrotors >= MANY else 0)
+    return Graph(MANY if rolls and quadrotors >= MANY else 0, real)
 
 
 class BodyInputs(NamedTuple):
@@ -83,18 +87,22 @@ class TracedStep:
         templates: the layouts of the values of a step.
         fuses: whether a·b + c is rounded once.
         rolls: whether large sets may be loops.
+        single: whether numbers are floats, and sums over steps compensated.
+
+    Attributes:
+        rests: what compensated sums leave over, inputs `rest` of the next step.
     """
 
     # laws of a flight; a vehicle alone has others
     pilot, end = staticmethod(step.run_pilot), staticmethod(step.finish_sample)
 
-    def __init__(self, templates: Templates, *, fuses: bool = True, rolls: bool = True) -> None:
+    def __init__(self, templates: Templates, *, fuses: bool = True, rolls: bool = True, single: bool = False) -> None:
         self.templates, self.trace = templates, tracer(fuses)
         plant = templates.model.plant
         quadrotors = len(plant.frame.mass)
         if isinstance(getattr(plant.walls, "beam", None), Polyhedron):  # which has large sets
             quadrotors = max(quadrotors, MANY)
-        self.graph = graph_for(quadrotors, rolls=rolls)
+        self.graph = graph_for(quadrotors, rolls=rolls, real="float" if single else "double")
         self.model = self.input_of("fly", templates.model)
         self.t, self.dt = self.graph.input("t"), self.graph.input("dt")
         outer = step.StepInputs(
@@ -121,11 +129,42 @@ class TracedStep:
         if templates.has_floor or templates.has_walls:
             self.body_on_feet = self.numbers(self._stepped_body(on_feet_only(plant), acting))
             self.body_in_free_air = self.numbers(self._stepped_body(without_contact(plant), acting))
+        self.rests = list[Symbol]()
+        if single:
+            self._compensate_position()
         self.may_touch_walls = [self._may_touch_walls(acting)] if templates.has_walls else []
         moved = self.input_of("moved", templates.moved)
         after, sample = self.trace(self.end)(self.model, output, acting, moved, self.given, self.t, self.dt)
         check_layout(self.model.pilot.controller, templates.model.flight_state, written_out(after))
         self.next_state, self.sample = self.numbers(after), self.numbers(sample)
+        if single:
+            self._compensate_sums()
+
+    def _compensate_position(self) -> None:
+        """Compensate the sum of the position in all forms of the body; `moved` brings what it leaves over."""
+        (at, size), first = (
+            leaf_offset(self.templates.model, "flight_state", "state", "position"),
+            leaves(self.templates.moved),
+        )
+        g, bodies = self.graph, (self.body_in_contact, self.body_on_feet, self.body_in_free_air)
+        for j in range(size):
+            for body in filter(None, bodies):
+                node = body[j].node
+                made = compensated(g, node, g.input("fly", at + j).node, g.input("rest", j).node)
+                value, left = made or (node, g.constant(0.0))
+                body[j] = Symbol(g, value, "f")
+                body.append(Symbol(g, left, "f"))
+            self.rests.append(g.input("moved", first + j))
+
+    def _compensate_sums(self) -> None:
+        """Compensate the other sums of the state; estimators correct their own, and detectors count."""
+        g, flight_state = self.graph, self.templates.model.flight_state
+        spans = [leaf_offset(flight_state, name) for name in flight_state._fields if name not in UNCOMPENSATED]
+        for i in [i for at, size in spans for i in range(at, at + size)]:
+            nodes = self.next_state[i].node, g.input("fly", i).node, g.input("rest", len(self.rests)).node
+            if found := compensated(g, *nodes):
+                self.next_state[i] = Symbol(g, found.value, "f")
+                self.rests.append(Symbol(g, found.rest, "f"))
 
     @property
     def touches_before(self) -> Symbols:
@@ -203,7 +242,8 @@ class TracedStep:
     @cached_property
     def normals(self) -> list[Symbols]:
         """The standard normals of step `number`, four for each draw."""
-        number, keys = self.graph.input("number", type="i"), [self.graph.input("key", i) for i in (0, 1)]
+        number, kind = self.graph.input("number", type="i"), "f" if self.graph.real == "double" else "i"
+        keys = [self.graph.input("key", i, kind) for i in (0, 1)]  # no float holds 32 bits
         draws = range(draw_count(self.templates.given.noise))
         return [self.numbers(self.trace(draw_normals)(number, i, *keys)) for i in draws]
 

@@ -21,9 +21,9 @@ from tandemlift.analysis.studies.execution.lanes import (
 )
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array, flat, leaves
-from tandemlift.missions import MissionLike, mission_of
+from tandemlift.missions import MissionLike, mission_of, with_precision
 from tandemlift.simulation.caller_values import checked_seed, count_of, held_inputs
-from tandemlift.simulation.preparation import LANES, leaf_offset
+from tandemlift.simulation.preparation import leaf_offset
 from tandemlift.simulation.preparation.memory import NEVER
 from tandemlift.simulation.results import SampleChannels
 
@@ -45,6 +45,8 @@ class Block(BlockReadings):
             [N], or "velocity" of the reference (lanes, 3) [m/s].
         begin: time [s] at which a flight is handed over after a reset; until then it flies without actions, as through
             its lift.
+        precision: in place of `mission.precision`. In "single", readings and `actions` are float32, sixteen flights
+            share an instruction, and a flight equals that of `fly_many`.
 
     Attributes:
         mission: the mission.
@@ -67,10 +69,11 @@ class Block(BlockReadings):
         *,
         actions: Actions = "push",
         begin: float = 0.0,
+        precision: Literal["double", "single"] | None = None,
     ) -> None:
         if actions not in get_args(Actions):
             raise InputError(f"actions = {actions!r}: must be one of {', '.join(map(repr, get_args(Actions)))}")
-        self.mission, self.lanes = mission_of(mission), count_of("lanes", lanes)
+        self.mission, self.lanes = with_precision(mission_of(mission), precision), count_of("lanes", lanes)
         threads = (os.cpu_count() or 1) if threads is None else count_of("threads", threads)
         self._flights = Lanes(self.mission, self.lanes)
         p = self._p = self._flights.first
@@ -80,7 +83,7 @@ class Block(BlockReadings):
         starts = self._flights.starts
         self._memory = BlockOfFlights(
             p.loop_code,
-            [*starts, *[starts[-1]] * (-self.lanes % LANES)],
+            [*starts, *[starts[-1]] * (-self.lanes % p.lanes)],
             p.grid(1, 1),
             leaves(p.sample),
             (place.start, place.stop - place.start + (flag is not None)),
@@ -92,6 +95,7 @@ class Block(BlockReadings):
         self._ended_at = leaf_offset(p.model, "flight_state", "ended").at
         at, size = leaf_offset(p.model, "flight_state", "metrics")
         self._tallies, self._empty = slice(at, at + size), np.array(flat(p.model.flight_state.metrics))
+        self._numbers = starts[0].numbers.size
         self._k, self._due = 0, NEVER
         self._ended = EndedFlights(self._memory, self.lanes)
         self._steps, self._late = np.zeros((2, self.lanes), dtype=np.int64)
@@ -211,12 +215,14 @@ class Block(BlockReadings):
         memory, taken = self._memory, self._steps_taken
         late = np.flatnonzero(~self._ended.over & (taken == self._late))
         for lane in late.tolist():
-            place = lane // LANES, self._tallies, lane % LANES
-            self._early[lane], memory.flights[place] = memory.flights[place], self._empty
+            b, place = divmod(lane, memory.width)
+            numbers = memory.flights[b, :, place]
+            self._early[lane], numbers[self._tallies] = numbers[self._tallies], self._empty
+            numbers[self._numbers :] = 0.0  # what compensated sums left over
         done = np.flatnonzero(~self._ended.over & (taken == self._steps))
-        for b in np.unique(done // LANES).tolist():
-            here = done[done // LANES == b]
-            self._ended.last[:, here] = memory.sample_here(b)[:, here % LANES]
+        for b in np.unique(done // memory.width).tolist():
+            here = done[done // memory.width == b]
+            self._ended.last[:, here] = memory.sample_here(b)[:, here % memory.width]
         self._close(done)
 
     def _look_ahead(self) -> None:

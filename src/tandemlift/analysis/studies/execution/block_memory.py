@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.simulation.preparation import LANES, FlightMemory, FlightStart, LeafSpan, LoopCode, TimeGrid
+from tandemlift.simulation.preparation import FlightMemory, FlightStart, LeafSpan, LoopCode, TimeGrid
 from tandemlift.simulation.preparation.compiled_flight import PARTS
 from tandemlift.simulation.preparation.memory import AT, NEVER, WORDS, Numbers, Words, aligned
 
@@ -19,22 +19,23 @@ WORTH = 2e-4  # s of flight code in a call, from which on threads share it
 
 
 class BlockOfFlights:
-    """The memory of many flights, eight to a `FlightMemory`, that a loop steps together from one call of Python.
+    """The memory of many flights, a block to a `FlightMemory`, that a loop steps together from one call of Python.
 
     Args:
         loop_code: of the flights.
-        starts: a flight for each lane, a multiple of eight.
+        starts: a flight for each lane, a multiple of the flights of a block.
         grid: of time steps; its log is never written.
         columns: numbers of a sample.
         held: first number and count of the caller's inputs that the actions are, in `external`.
         threads: that share a call if it takes long enough.
 
     Attributes:
-        flights: the numbers of all flights, (blocks, numbers, 8).
+        width: flights of a block.
+        flights: the numbers of all flights, (blocks, numbers, width).
         actions: of the caller, (count, lanes), held over all steps of a call.
         sample: the last one of each flight, (columns, lanes).
-        begun: the step of the block at which each flight began, (blocks, 8).
-        halts: 1 for a flight whose end halts its block, so that its last numbers can be taken; else 0, (blocks, 8).
+        begun: the step of the block at which each flight began, (blocks, width).
+        halts: 1 for a flight whose end halts its block, so that its last numbers can be taken; else 0, (blocks, width).
     """
 
     def __init__(
@@ -46,19 +47,20 @@ class BlockOfFlights:
         held: tuple[int, int],
         threads: int,
     ) -> None:
-        self.threads, self._pace = threads, 0.0  # s for a step of eight flights
+        self.threads, self._pace = threads, 0.0  # s for a step of a block
         self._running = list[Future[int]]()
-        lanes, width = len(starts), LANES
-        blocks, size = lanes // width, starts[0].numbers.size
-        self.code, self._loop_code = loop_code.loop(LANES, differ=loop_code.parts_that_differ(starts)), loop_code
+        lanes, width, kind = len(starts), loop_code.lanes, starts[0].numbers.dtype
+        self.code, self._loop_code = loop_code.loop(width, differ=loop_code.parts_that_differ(starts)), loop_code
+        self.width, blocks, size = width, lanes // width, starts[0].numbers.size + self.code.about["rests"]
         self._contexts, self._unsure = np.zeros((blocks, len(WORDS)), dtype=np.int64), set[int]()
-        self.flights = aligned(lanes * size).reshape(blocks, size, width)
+        self.flights = aligned(lanes * size, kind).reshape(blocks, size, width)
         apart = lanes + width  # no power of two, so that the columns share no place in the processor's cache
-        self.sample = aligned(columns * apart).reshape(columns, apart)[:, :lanes]
-        self.actions = aligned(held[1] * lanes).reshape(held[1], lanes)
+        self.sample = aligned(columns * apart, kind).reshape(columns, apart)[:, :lanes]
+        self.actions = aligned(held[1] * lanes, kind).reshape(held[1], lanes)
+        shared = zip(self.flights.reshape(blocks, -1), self._contexts, self._scratch(), strict=True)
         self.blocks = [
-            FlightMemory(self.code, starts[b * width : (b + 1) * width], grid, columns, (numbers.reshape(-1), context))
-            for b, (numbers, context) in enumerate(zip(self.flights, self._contexts, strict=True))
+            FlightMemory(self.code, starts[b * width : (b + 1) * width], grid, columns, own)
+            for b, own in enumerate(shared)
         ]
         for b, memory in enumerate(self.blocks):
             memory.put("shown", self.sample[:, b * width :].ctypes.data)
@@ -71,6 +73,11 @@ class BlockOfFlights:
             [self._contexts.ctypes.data, 0, 0, 0, self.actions.ctypes.data, held[1], lanes, held[0], 0]
         )
         self._find_places()
+
+    def _scratch(self) -> Numbers:
+        """Scratch memory of all blocks, in one piece: NumPy asks for large pages of it."""
+        blocks, size = len(self.flights), self.code.about["size"] * self.width
+        return aligned(blocks * size, self.flights.dtype).reshape(blocks, size)
 
     def _find_places(self) -> None:
         """Find what stands in the scratch memory of the blocks."""
@@ -85,9 +92,9 @@ class BlockOfFlights:
         differ = set[str]().union(*[self._loop_code.parts_that_differ(self.blocks[b].starts) for b in self._unsure])
         self._unsure.clear()
         if not differ <= set(self.code.about["own"]):
-            self.code = self._loop_code.loop(LANES, differ=PARTS)
-            for memory in self.blocks:
-                memory.use(self.code)
+            self.code = self._loop_code.loop(self.width, differ=PARTS)
+            for memory, work in zip(self.blocks, self._scratch(), strict=True):
+                memory.use(self.code, work)
             self._find_places()
 
     @property
@@ -101,7 +108,7 @@ class BlockOfFlights:
 
     def begin(self, lane: int, start: FlightStart) -> None:
         """Begin a flight in a lane at the next step of its block."""
-        b, place = divmod(lane, LANES)
+        b, place = divmod(lane, self.width)
         if self.blocks[b].starts[place] is not start:
             self._unsure.add(b)
         self.blocks[b].begin(place, start)
@@ -111,21 +118,21 @@ class BlockOfFlights:
 
     def take(self, lane: int, other: BlockOfFlights, place: int, steps: int) -> None:
         """Go on in a lane, which has just begun, with a flight of another block that has taken some steps."""
-        (b, i), (c, j) = divmod(lane, LANES), divmod(place, LANES)
+        (b, i), (c, j) = divmod(lane, self.width), divmod(place, self.width)
         self.flights[b, :, i] = other.flights[c, :, j]
         self.begun[b, i] = self._begun[b][i] = self.reached[b] - steps
-        ring, turned = (m.ring.reshape(m.rings, -1, LANES) for m in (self.blocks[b], other.blocks[c]))
+        ring, turned = (m.ring.reshape(m.rings, -1, self.width) for m in (self.blocks[b], other.blocks[c]))
         ring[:, :, i] = np.roll(turned[:, :, j], int(self.begun[b, i]) - int(other.begun[c, j]), axis=0)
         self.sample[:, lane] = other.sample[:, place]
 
     def watch(self, lane: int, halts: bool) -> None:
         """Choose whether the end of a flight halts its block."""
-        b, place = divmod(lane, LANES)
+        b, place = divmod(lane, self.width)
         self.halts[b, place] = self._halting[b][place] = float(halts)
 
     def sample_here(self, b: int) -> Numbers:
-        """The samples of a block at its present step (columns, 8), taken without a step and without actions."""
-        own, memory, k = slice(b * LANES, (b + 1) * LANES), self.blocks[b], int(self.reached[b])
+        """The samples of a block at its present step (columns, width), taken without a step and without actions."""
+        own, memory, k = slice(b * self.width, (b + 1) * self.width), self.blocks[b], int(self.reached[b])
         before = self.sample[:, own].copy(), self.actions[:, own].copy()
         self._check_code()
         self.actions[:, own] = 0.0
@@ -193,15 +200,15 @@ class EndedFlights:
     """
 
     def __init__(self, memory: BlockOfFlights, lanes: int) -> None:
-        columns = len(memory.sample)
+        columns, kind = len(memory.sample), memory.sample.dtype
         self.over, self.steps = np.zeros(lanes, dtype=bool), np.zeros(lanes, dtype=np.int64)
-        self.last, self.outcomes = np.zeros((columns, lanes)), [""] * lanes
-        self._memory, self._numbers = memory, np.zeros((lanes, memory.flights.shape[1]))
-        self._sample = np.zeros((columns, lanes))  # of the last step
+        self.last, self.outcomes = np.zeros((columns, lanes), kind), [""] * lanes
+        self._memory, self._numbers = memory, np.zeros((lanes, memory.flights.shape[1]), kind)
+        self._sample = np.zeros((columns, lanes), kind)  # of the last step
 
     def close(self, lanes: NDArray[np.intp]) -> None:
         """Keep flights as they are."""
-        memory, b, place = self._memory, lanes // LANES, lanes % LANES
+        memory, b, place = self._memory, lanes // self._memory.width, lanes % self._memory.width
         self.over[lanes] = True
         self.steps[lanes] = memory.reached[b] - memory.begun[b, place]
         self._numbers[lanes] = memory.flights[b, :, place]
@@ -219,5 +226,6 @@ class EndedFlights:
         """Set the flights that are over back to their end."""
         over = np.flatnonzero(self.over)
         if over.size:
-            self._memory.flights[over // LANES, :, over % LANES] = self._numbers[over]
+            width = self._memory.width
+            self._memory.flights[over // width, :, over % width] = self._numbers[over]
             self._memory.sample[:, over] = self._sample[:, over]

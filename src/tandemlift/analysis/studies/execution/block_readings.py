@@ -14,7 +14,7 @@ from tandemlift.core.types import Array, leaves, unflat
 from tandemlift.missions import Mission
 from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.preparation import LANES, LeafSpan, leaf_offset
+from tandemlift.simulation.preparation import LeafSpan, leaf_offset
 from tandemlift.simulation.results import RawResult, SampleChannels, metrics_of
 
 
@@ -120,7 +120,7 @@ class BlockReadings:
 
     def _flown(self, lane: int) -> tuple[FlightPlan, RawResult]:
         (lane,) = lane_numbers(int(lane), self.lanes)
-        plan, memory, b, place = self._flights.plans[lane], self._memory, *divmod(lane, LANES)
+        plan, memory, b, place = self._flights.plans[lane], self._memory, *divmod(lane, self._memory.width)
         over, like = self._ended.over[lane], self._p.model.flight_state
         state = unflat(memory.flights[b, : leaves(like), place], like)
         last = self._ended.last[:, lane] if over else memory.sample_here(b)[:, place]

@@ -36,7 +36,7 @@ class Lanes:
     """
 
     def __init__(self, mission: Mission, count: int) -> None:
-        self.first = FlightPlan(mission, interactive=True)
+        self.first = FlightPlan(mission, interactive=True, in_block=True)
         _refuse_stepwise(self.first)
         self.plans, self._template = [self.first] * count, MissionTemplate.of(mission)
         self._seeds = [checked_seed(mission.mission.seed + lane) for lane in range(count)]
@@ -71,7 +71,7 @@ class Lanes:
             raise InputError(
                 f"mission.seed = {shown(keys['mission.seed'])}: a lane's seed is given by seed=, not by keys"
             )
-        plan = FlightPlan(self._template.mission({**keys, "mission.seed": seed}), interactive=True)
+        plan = FlightPlan(self._template.mission({**keys, "mission.seed": seed}), interactive=True, in_block=True)
         if reason := _shared(self.first, plan):
             *others, (key, value) = keys.items()
             self._plan_with(dict(others), seed)  # refuses the first one at fault
@@ -85,7 +85,7 @@ def _start(plan: FlightPlan, seed: int) -> FlightStart:
     if mission.mission.seed == seed:
         return plan.start()
     table = mission.mission.model_copy(update={"seed": seed})
-    return FlightPlan(mission.model_copy(update={"mission": table}), interactive=True).start()
+    return FlightPlan(mission.model_copy(update={"mission": table}), interactive=True, in_block=True).start()
 
 
 def _shared(first: FlightPlan, plan: FlightPlan) -> str:

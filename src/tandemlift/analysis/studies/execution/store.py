@@ -269,7 +269,7 @@ def _samples(plan: StudyPlan) -> Iterator[FlightPlan]:
     for cell in range(cells):
         for row in plan.rows(cell * each, cell * each + min(TRIED, each)):
             try:
-                yield FlightPlan(templates[row.variant].mission(row.changes))
+                yield FlightPlan(templates[row.variant].mission(row.changes), in_block=True)
             except InputError:
                 continue
             break

@@ -27,7 +27,7 @@ from tandemlift.core.errors import InputError, extra, unknown
 from tandemlift.core.files import DATA, __version__, atomic_write
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Progress
-from tandemlift.missions import MissionLike, format_toml, mission_of, tables_of
+from tandemlift.missions import MissionLike, check_double, format_toml, mission_of, tables_of
 from tandemlift.pictures.drawing.style import save
 from tandemlift.pictures.report.page import Verdict, shown_figures, write_page
 from tandemlift.pictures.report.paper_report import check_typesetting, typeset
@@ -72,6 +72,7 @@ def certify(
             is missing (extra: certify).
     """
     mission = mission_of(mission)
+    check_double(mission, "a certificate is computed in doubles")
     for name in tiers:
         if name not in TIERS:
             raise unknown("tier", name, TIERS)
