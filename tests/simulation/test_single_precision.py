@@ -12,7 +12,7 @@ import tandemlift as tl
 from tandemlift.core.errors import InputError
 
 SINGLE = {"mission.precision": "single"}
-LOST = {"quadrotor": 1, "rotor": 1, "time": 5.0}
+LOST = {"quadrotor": 1, "rotor": 1, "time": 7.0}
 FALLS = {"mission.duration": 9.0, "faults": [{**LOST, "quadrotor": q, "rotor": r} for q in (1, 2) for r in (1, 2, 3)]}
 CLOSE = {  # missions with changes, and how far apart the positions may be [m]
     "paper": ({}, 1e-5),
