@@ -9,6 +9,7 @@ from scipy.fft import rfft, rfftfreq
 from scipy.signal import find_peaks
 
 import tandemlift as tl
+from tandemlift.missions.outcomes import promise_of
 from tandemlift.parts.guidance.supervision import SLOTS
 from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.plan import FlightPlan
@@ -26,6 +27,7 @@ CLOCK = {  # on top of mission hover with rotors, in one compiled loop
         "promise.settling_time": 2.0,
         "promise.tilt": 0.05,
     },
+    "sinking": {"disturbance.force": [0.0, 0.0, -8.0], "promise.sinking": 0.05, "promise.settling_time": 2.0},
     "turned": {"disturbance.moment": [0.0, 0.0, 0.1], "promise.heading": 0.01},
 }
 HAND = {  # on top of mission iris
@@ -93,6 +95,23 @@ def test_the_distance_and_its_root_mean_square_are_those_of_the_channels(flights
     assert found.place == pytest.approx(flight["position"][np.where(late, d, 0.0).argmax()])
     rms = only(flight, "off-track", "RMS")
     assert rms.value == pytest.approx(math.sqrt(np.mean(d[late] ** 2)), rel=1e-12)
+
+
+def test_sinking_is_how_far_the_channels_are_below_the_reference(flights):
+    flight = flights["sinking"]
+    late = flight.time[:-1] >= 2.0
+    below = (flight["reference_position"] - flight["position"])[:-1, 2]
+    found = only(flight, "off-track", "sinking")
+    assert found.value == pytest.approx(below[late].max(), rel=1e-12)
+    assert found.duration == pytest.approx((late & (below > 0.05)).sum() * 1e-3)
+    assert not of_kind(flight, "off-track", "distance")
+    assert not of_kind(flights["sideways"], "off-track", "sinking")
+
+
+def test_a_person_is_promised_that_the_vehicle_does_not_sink():
+    promise = tl.load_mission("iris").promise
+    assert promise_of(promise, "interactive").sinking == 0.1
+    assert promise_of(promise, "scheduled").sinking == math.inf
 
 
 def test_heading_and_tilt_are_those_of_the_channels(flights):

@@ -83,10 +83,12 @@ KINDS = (
     ),
     FindingKind(
         "off-track",
-        "the vehicle was farther from its reference than the mission promises: in distance, RMS distance, heading or "
-        "tilt",
+        "the vehicle was farther from its reference than the mission promises: in distance, RMS distance, "
+        "height, heading or tilt",
         "change what disturbs it or the controller's gains; if the deviation is acceptable, change the promise",
-        ("promise.distance", "promise.rms_distance", "promise.heading", "promise.tilt", "promise.settling_time"),
+        tuple(
+            f"promise.{name}" for name in ("distance", "rms_distance", "sinking", "heading", "tilt", "settling_time")
+        ),
     ),
     FindingKind(
         "out-of-reach",

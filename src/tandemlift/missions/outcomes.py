@@ -95,6 +95,14 @@ class PromiseTable(Table):
         source="chosen: above every built-in mission (0.10 m and 0.01 m)",
         example=0.15,
     )
+    sinking: Positive | None = key(
+        None,
+        "m",
+        "largest distance below the reference",
+        unset="none scheduled, 0.1 m interactive",
+        source="chosen: a person stands below or beside it; interactive built-in missions keep 0.01 m",
+        example=0.1,
+    )
     heading: Angle = key(
         0.15, "rad", "largest difference from the reference heading", source="chosen: 9°; built-in missions keep 0.02"
     )
@@ -123,6 +131,7 @@ class Promise(NamedTuple):
 
     distance: float
     rms_distance: float | None
+    sinking: float
     heading: float
     tilt: float
     settling_time: float
@@ -134,6 +143,7 @@ class Promise(NamedTuple):
 
 DISTANCE = {"scheduled": 0.5, "interactive": 0.25}
 RMS = {"scheduled": 0.15, "interactive": 0.05}
+SINKING = {"scheduled": math.inf, "interactive": 0.1}
 SETTLED = {"scheduled": 10.0, "interactive": 0.0}
 
 
@@ -141,7 +151,8 @@ def promise_of(p: PromiseTable, guidance: str) -> Promise:
     """The promises of a mission with this guidance."""
     distance = DISTANCE[guidance] if p.distance is None else p.distance
     settled = SETTLED[guidance] if p.settling_time is None else p.settling_time
-    return Promise(distance, p.rms_distance, p.heading, p.tilt, settled)
+    sinking = SINKING[guidance] if p.sinking is None else p.sinking
+    return Promise(distance, p.rms_distance, sinking, p.heading, p.tilt, settled)
 
 
 class FindingsTable(Table, keys_act={"saturated_time saturated_fraction reach_time": 'actuators.model = "rotors"'}):
@@ -284,6 +295,7 @@ def sensed_promise_warnings(p: PromiseTable, guidance: str, motion: MotionSensor
     for name, value, least, noise in (
         ("rms_distance", promise.rms_promised(guidance), position, "sensors.motion.position_noise"),
         ("distance", promise.distance, position, "sensors.motion.position_noise"),
+        ("sinking", promise.sinking, motion.position_noise, "sensors.motion.position_noise"),
         ("heading", promise.heading, attitude, "sensors.motion.attitude_noise"),
     ):
         if value < least:

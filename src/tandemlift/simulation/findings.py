@@ -126,6 +126,10 @@ def _deviations(d: Detectors, promise: Promise, promised: float, reach: float, d
             unit="m",
             limit=promised,
         )
+    if d.sinking.steps:
+        low = d.sinking.worst
+        text = f"{low:.3g} m below its reference (promised: {promise.sinking:g} m)"
+        yield _excess("off-track", text, d.sinking, dt, "sinking below the reference", low, "m", promise.sinking)
     if d.heading.steps:
         text = f"{_degrees(d.heading.worst)} from its reference heading (promised: {_degrees(promise.heading)})"
         yield _excess(

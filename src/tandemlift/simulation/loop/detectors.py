@@ -45,13 +45,14 @@ from tandemlift.simulation.loop.running_metrics import at_limit, counted
 class FindingLimits(NamedTuple):
     """The limits above which a flight has findings.
 
-    `settled` [s]: start of the promise. Squares of the promised distance [m²], and the heading [rad]; the smallest
-    cosine of the tilt. `mass` [kg]; the square of the largest `thrust` [N²]. `rate` [(rad/s)²]: square of the smallest
+    `settled` [s]: start of the promise. Square of the promised distance [m²], the distance below the reference [m], the
+    heading [rad]; the smallest cosine of the tilt. `mass` [kg]; the square of the largest `thrust` [N²]. `rate` [(rad/s)²]: square of the smallest
     oscillation of a body rate. `unpushed` [m]: largest motion of the reference without a push.
     """
 
     settled: Number
     distance: Number
+    sinking: Number
     heading: Number
     upright: Number
     mass: Number
@@ -74,6 +75,7 @@ class Detectors(NamedTuple):
     squares: Number
     oscillation: Oscillation
     distance: Excess
+    sinking: Excess
     heading: Excess
     tilt: Excess
     saturation: Excess | Absent
@@ -93,6 +95,7 @@ class Watched(NamedTuple):
 
     swings: Swings[Number]
     distance: Number
+    sinking: Number
     heading: Number
     upright: Number
     limited: Number
@@ -109,6 +112,7 @@ ASLEEP = Detectors(
     squares=0.0,
     oscillation=NO_OSCILLATION,
     distance=NO_EXCESS,
+    sinking=NO_EXCESS,
     heading=NO_EXCESS,
     tilt=NO_EXCESS,
     saturation=NO_EXCESS,
@@ -147,6 +151,7 @@ def watched(model: Any, output: Any, x: Sample, flying: Number, t: Number) -> Wa
     return Watched(
         swings=Swings(x.rates.x, x.rates.y, x.rates.z, x.reference_velocity.z - x.velocity.z),
         distance=dot(error, error),
+        sinking=error.z,
         heading=absolute(wrap_angle(x.reference_euler - x.euler).z),
         upright=body_z_axis(x.attitude).z,
         limited=rotors_at_limit(model.rotors, decision.thrusts, usable_rotors(model.pilot.allocation, left, t))
@@ -166,6 +171,7 @@ def may_be_found(k: FindingLimits, w: Watched) -> Number:
     found = where(dot(w.push, w.push) > k.push.least, 1.0, where(w.limited > 0.0, 1.0, 0.0))
     found = maximum(found, maximum(maximum(w.pushed, w.followed), where(dot(w.refuted, w.refuted) > 0.0, 1.0, 0.0)))
     found = where(w.needed > k.thrust, 1.0, where(w.upright < k.upright, 1.0, found))
+    found = where(w.sinking > k.sinking, 1.0, found)
     found = where(w.heading > k.heading, 1.0, where(w.distance > k.distance, 1.0, found))
     found = where(absolute(s.vertical) < k.oscillation.levels.vertical, found, 1.0)
     return where(s.roll * s.roll + s.pitch * s.pitch + s.yaw * s.yaw < k.rate, found, 1.0)
@@ -185,6 +191,7 @@ def detect(model: Any, output: Any, x: Sample, t: Number, dt: Number) -> Detecto
         squares=m.squares + w.distance * settled,
         oscillation=oscillation_step(k.oscillation, m.oscillation, w.swings, flying, t),
         distance=exceed(m.distance, where(w.distance > k.distance, settled, 0.0), w.distance, place, t, dt),
+        sinking=exceed(m.sinking, where(w.sinking > k.sinking, settled, 0.0), w.sinking, place, t, dt),
         heading=exceed(m.heading, where(w.heading > k.heading, settled, 0.0), w.heading, place, t, dt),
         tilt=exceed(m.tilt, where(w.upright < k.upright, settled, 0.0), 1.0 - w.upright, place, t, dt),
         saturation=exceed(m.saturation, where(w.limited > 0.0, flying, 0.0), w.limited, place, t, dt),

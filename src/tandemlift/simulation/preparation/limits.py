@@ -52,6 +52,7 @@ def finding_limits_from(mission: Mission, vehicle: Vehicle) -> FindingLimits:
     return FindingLimits(
         settled=promise.settling_time,
         distance=promise.distance * promise.distance,
+        sinking=promise.sinking,
         heading=promise.heading,
         upright=cos(promise.tilt),
         mass=vehicle.mass,
