@@ -84,7 +84,12 @@ class MissionTable(Table):
         None,
         "whether a·b + c is rounded once, which is fastest; false gives the same bits on every machine, as in C",
     )
-    precision: Literal["double", "single"] = key("double", None, "of the numbers; single flies 16 flights at once")
+    precision: Literal["double", "single"] = key(
+        "double",
+        None,
+        "precision of the numbers in flight",
+        choices={"double": "64 bits, everywhere", "single": "32 bits, 16 flights at once, in blocks and studies"},
+    )
 
     @property
     def steps(self) -> int:

@@ -46,8 +46,9 @@ class FindingLimits(NamedTuple):
     """The limits above which a flight has findings.
 
     `settled` [s]: start of the promise. Square of the promised distance [m²], the distance below the reference [m], the
-    heading [rad]; the smallest cosine of the tilt. `mass` [kg]; the square of the largest `thrust` [N²]. `rate` [(rad/s)²]: square of the smallest
-    oscillation of a body rate. `unpushed` [m]: largest motion of the reference without a push.
+    heading [rad]; the smallest cosine of the tilt. `mass` [kg]; the square of the largest `thrust` [N²]. `rate`
+    [(rad/s)²]: square of the smallest oscillation of a body rate. `unpushed` [m]: largest motion of the reference
+    without a push.
     """
 
     settled: Number
