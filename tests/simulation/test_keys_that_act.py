@@ -70,7 +70,7 @@ class Traced:
         self.layout, numbers = layout_and_numbers(made.model)
         self.numbers = np.array([float(x) for x in numbers])
         self.rest = [np.asarray(x, float).tolist() for x in (*made.tables, made.delays, made.seeds)]
-        self.rest += [layout_and_numbers(made.given)[0], m.steps, m.log_every, m.step, m.fma]
+        self.rest += [layout_and_numbers(made.given)[0], m.steps, m.log_every, m.step, m.fma, m.precision]
 
     def differs(self, other, used):
         """Whether another flight may have other results."""
