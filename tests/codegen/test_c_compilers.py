@@ -58,6 +58,7 @@ def instructions(folder, *options):
     return "".join(subprocess.run([*command, s], check=True, capture_output=True, text=True).stdout for s in sources)
 
 
+@pytest.mark.thorough
 @pytest.mark.skipif(platform.machine() != "x86_64", reason="vfmaddsub is an instruction of x86-64")
 @pytest.mark.parametrize("options", [("-O2",), ("-O3", "-march=haswell"), ("-std=gnu17", "-O2")])
 def test_gcc_fuses_no_product_and_sum_where_the_processor_could(options, tmp_path):

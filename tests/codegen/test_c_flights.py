@@ -21,6 +21,7 @@ def mission_of(name, **changes):
     return unfused(tl.load_mission(name, {key.replace("__", "."): value for key, value in changes.items()}))
 
 
+@pytest.mark.thorough
 def test_a_short_flight_in_c_has_the_bits_of_the_native_one(tmp_path):
     mission = mission_of("one-push")
     wrong, lost = differences(CFlight(mission, tmp_path), mission, range(5))
@@ -56,6 +57,7 @@ class Preparation:
         return failed, prepared[: self._size]
 
 
+@pytest.mark.thorough
 def test_numbers_of_another_mission_are_prepared_in_c_as_by_assembly_where_it_would_not_branch_otherwise(tmp_path):
     mission, other = mission_of("one-push"), mission_of("one-push", vehicle__payload__mass=211.5)
     prepare = Preparation(mission, tmp_path)

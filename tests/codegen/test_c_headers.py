@@ -87,6 +87,7 @@ def controller_with_names_of_c(path):
     return tl.load_controller(path)
 
 
+@pytest.mark.thorough
 def test_another_law_with_the_same_keys_has_another_hash(tmp_path):
     found, path = [], tmp_path / "my_pd.py"
     text = (ROOT / "docs" / "reference" / "listings" / "my_pd.py").read_text("utf-8")

@@ -68,6 +68,7 @@ def flown_in_c(name):
     return mission, code_texts(mission)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["paper", "iris"])
 def test_its_thrusts_have_the_bits_of_the_native_pilot(name, tmp_path):
     need("gcc")
@@ -79,6 +80,7 @@ def test_its_thrusts_have_the_bits_of_the_native_pilot(name, tmp_path):
     assert len(np.unique(found[:, 1])) > 1000
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("wrong", [np.nan, np.inf, -np.inf])
 def test_a_number_that_is_not_finite_changes_nothing_as_in_the_native_pilot(wrong, tmp_path):
     need("gcc")
@@ -123,6 +125,7 @@ def test_with_supervision_a_number_that_is_not_finite_stays_out_of_the_memory(tm
     assert "supervision detects numbers that are not finite" in texts[f"{in_c.name}_pilot.h"]
 
 
+@pytest.mark.thorough
 def test_the_self_tests_pass_and_fail_when_a_bit_is_other(tmp_path):
     need("gcc")
     files = write_c(tl.load_mission("one-push"), tmp_path)
@@ -194,6 +197,7 @@ def test_its_functions_are_short_allocate_nothing_and_name_their_laws():
     assert len(texts["README.md"].split("\n")) <= 60
 
 
+@pytest.mark.thorough
 def test_its_headers_say_version_hash_units_frames_and_meanings():
     texts, other = (code_texts(tl.load_mission("paper", changes)) for changes in ({}, {"mission.seed": 7}))
     assert code_texts(tl.load_mission("paper")) == texts

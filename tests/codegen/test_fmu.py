@@ -71,6 +71,7 @@ def recorded(instance, outputs, steps, size):
     return np.array(rows)
 
 
+@pytest.mark.thorough
 @BOTH
 @pytest.mark.parametrize("name", ["hover", "iris", *IN_TARGETS])
 def test_a_whole_flight_has_the_bits_of_the_record(name, fmi, fmu):
@@ -96,6 +97,7 @@ def test_a_pilot_has_the_thrusts_of_the_native_one(name, fmi, fmu):
         assert same(instance.number("thrusts", rotors), pilot.step(np.ascontiguousarray(row)))
 
 
+@pytest.mark.thorough
 @BOTH
 @pytest.mark.parametrize("name", ["hover", "iris", *IN_TARGETS])
 def test_a_vehicle_under_thrusts_and_pushes_has_the_bits_of_the_simulation(name, fmi, fmu):
@@ -157,6 +159,7 @@ def test_a_pilot_begins_enabled_and_holds_its_place_once_it_is_not(fmi, fmu):
         assert same(instance.number("thrusts", 8), native.step(state, enabled=k < 10))
 
 
+@pytest.mark.thorough
 def test_pilot_and_vehicle_together_fly_the_whole_flight(fmu):
     flight, mission = flown("paper"), tl.load_mission("paper")
     pilot, vehicle = Instance(fmu("paper", "pilot", 3)), Instance(fmu("paper", "vehicle", 3))

@@ -32,6 +32,7 @@ def sources(request, tmp_path_factory):
     return fmi, [tl.compile_mission(mission, "fmu", f, fmi=fmi, platforms=["none"]) for f in folders]
 
 
+@pytest.mark.thorough
 def test_each_has_a_description_and_sources_alike_each_time(sources):
     fmi, (one, two) = sources
     assert [path.name for path in one] == NAMES
@@ -124,6 +125,7 @@ def test_the_command_refuses_platforms_without_a_name(tmp_path):
     assert str(result.exception).startswith("unknown platform ''; there are linux,")
 
 
+@pytest.mark.thorough
 def test_one_program_links_the_sources_of_several_fmus_by_their_prefixes(tmp_path):
     need("gcc", "nm")
     mission, objects = portable_mission(tl.load_mission("hover")), []
@@ -145,6 +147,7 @@ def test_one_program_links_the_sources_of_several_fmus_by_their_prefixes(tmp_pat
     subprocess.run([tmp_path / "main"], check=True)
 
 
+@pytest.mark.thorough
 def test_the_command_writes_three(tmp_path):
     given = ["hover", "--target", "fmu", "--fmi", "3", "--platforms", "none", "--out", str(tmp_path)]
     result = CliRunner().invoke(compile_command, given)

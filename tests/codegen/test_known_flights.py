@@ -57,6 +57,7 @@ def unaware(monkeypatch):
     monkeypatch.setattr(store, "LOADED", 1 << 62)
 
 
+@pytest.mark.thorough
 def test_a_known_flight_is_the_prepared_one_until_a_file_that_it_extends_changes(file, tmp_path):
     first, second = (flown(file, tmp_path / f"{i}.npz") for i in "ab")
     assert [first[0], second[0]] == ["prepared", "known"]
@@ -69,6 +70,7 @@ def test_a_known_flight_is_the_prepared_one_until_a_file_that_it_extends_changes
     assert flown(file, tmp_path / "d.npz") == ["known", thrust]
 
 
+@pytest.mark.thorough
 def test_an_edit_of_a_law_a_table_or_a_built_in_mission_is_flown(tmp_path):
     package = EditedPackage(tmp_path)
     time.sleep(2e-9 * store.MARGIN)
@@ -88,6 +90,7 @@ def test_an_edit_of_a_law_a_table_or_a_built_in_mission_is_flown(tmp_path):
     assert package.run(fly).split()[::2] == ["True", "601"]
 
 
+@pytest.mark.thorough
 def test_every_module_with_a_law_a_choice_a_table_or_a_registry_counts_as_one_that_may_be_replaced():
     found = []
     for path in PACKAGE.rglob("*.py"):
@@ -150,6 +153,7 @@ def remembered(name, changes):
     return KnownFile(name, changes), flight
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", sorted(built_in()))
 def test_a_known_flight_of_a_built_in_mission_has_the_record_of_a_prepared_one(name, unaware):
     file, flight = remembered(name, {"mission.log_interval": 0.05})

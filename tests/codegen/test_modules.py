@@ -115,6 +115,7 @@ def test_unknown_targets_are_refused_with_those_that_there_are(tmp_path: Path, m
     assert not (tmp_path / "x").exists()
 
 
+@pytest.mark.thorough
 def test_an_object_does_not_replace_that_of_another_machine(tmp_path: Path) -> None:
     mission = tl.load_mission("hover")
     compile_mission(mission, "aarch64", tmp_path)

@@ -60,6 +60,7 @@ def test_a_module_flies_as_native_code(tmp_path: Path) -> None:
     assert check_draws("paper", tmp_path, duration=3.0, count=5) == 1
 
 
+@pytest.mark.thorough
 def test_a_module_flies_with_a_policy_as_native_code(tmp_path: Path) -> None:
     check_draws("iris", tmp_path, duration=14.0, count=2, compliance__policy__model="network")
 

@@ -30,6 +30,7 @@ def content_of(folder):
     return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", COMMANDS)
 def test_a_command_that_finds_no_space_names_the_file_and_leaves_nothing(name, tmp_path):
     command = [sys.executable, "-m", "tandemlift", *COMMANDS[name]]
@@ -83,6 +84,7 @@ def test_a_folder_in_the_place_of_one_file_keeps_all_from_being_written(tmp_path
     assert [path.name for path in tmp_path.iterdir()] == ["b"]
 
 
+@pytest.mark.thorough
 def test_an_interrupt_leaves_the_fmus_that_were_there(tmp_path, monkeypatch):
     names = [f"hover_{part}.fmu" for part in ("pilot", "vehicle", "flight")]
     for name in names:

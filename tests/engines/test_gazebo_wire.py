@@ -91,6 +91,7 @@ def fly_by(wire, steps):
     return np.array(states)
 
 
+@pytest.mark.thorough
 def test_a_mission_flies_over_the_wire_as_in_the_compiled_engine(mission, vehicle, joined):
     with Plugin(RigidBody(vehicle), DT) as plugin:
         a, b = tl.fly(mission), joined(mission, plugin)
@@ -104,6 +105,7 @@ def test_a_mission_flies_over_the_wire_as_in_the_compiled_engine(mission, vehicl
         np.testing.assert_allclose(b[name], a[name], rtol=0.0, atol=0.02, err_msg=name)
 
 
+@pytest.mark.thorough
 def test_a_push_that_the_plugin_reports_is_a_push_of_the_flight(mission, vehicle, joined):
     alone = tl.fly(mission)
     said = {101: "force 3 0 -1 point 0.1 0.9 0.2 duration 0.15", 201: "force 0 2 0 duration 60", 301: "off"}
@@ -122,6 +124,7 @@ def test_a_push_that_the_plugin_reports_is_a_push_of_the_flight(mission, vehicle
     np.testing.assert_allclose(np.subtract(*gains), force[100] / vehicle.mass * DT, rtol=0.0, atol=1e-6)
 
 
+@pytest.mark.thorough
 def test_touches_that_the_plugin_reports_are_recorded_and_stop_the_rotor(monkeypatch):
     mission = tl.load_mission(
         "iris", CRASHES["flown into a wall with one rotor"] | {"mission.duration": 0.5, "mission.log_interval": DT}
@@ -144,6 +147,7 @@ def test_touches_that_the_plugin_reports_are_recorded_and_stop_the_rotor(monkeyp
     assert (thrust[time < theirs.time] > 0.0).all()
 
 
+@pytest.mark.thorough
 def test_what_is_lost_doubled_late_or_spoiled_on_the_way_changes_no_bit(vehicle, wire_to):
     with Plugin(RigidBody(vehicle), DT) as plugin:
         sound = fly_by(wire_to(plugin), 100)

@@ -127,12 +127,14 @@ def mission_named(name):
     return tl.load_mission(base, {"mission.log_interval": step, **changes})
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", MISSIONS)
 def test_a_flight_has_the_bits_of_one_stepped_in_python(name, in_python):
     mission = mission_named(name)
     assert different(tl.fly(mission, "mujoco"), in_python(mission)) == []
 
 
+@pytest.mark.thorough
 @pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="MuJoCo rounds rotations otherwise there")
 @pytest.mark.parametrize("name", WINDY)
 def test_a_flight_in_wind_has_the_bits_of_one_stepped_in_python(name, in_python):
@@ -150,6 +152,7 @@ def test_six_quadrotors_in_wind_fly_as_in_the_compiled_engine():
     np.testing.assert_allclose(theirs["position"], ours["position"], atol=1e-6)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", CRASHES)
 def test_a_crash_has_the_bits_of_one_stepped_in_python(name, in_python):
     mission = crash_mission(name)
@@ -173,6 +176,7 @@ def calls_of_python(run):
     return calls
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["iris", "zigzag", "four"])
 def test_no_python_runs_in_a_step(name, in_python, monkeypatch):
     monkeypatch.setenv("TANDEMLIFT_OPTIMISE", "0")
@@ -185,6 +189,7 @@ def test_no_python_runs_in_a_step(name, in_python, monkeypatch):
     assert calls_of_python(lambda: in_python(short))["mj_step"] == 1001  # so the count would see one
 
 
+@pytest.mark.thorough
 def test_flights_in_threads_at_once_have_the_bits_of_each_alone():
     missions = [mission_named(name) for name in ("iris, fallen", "zigzag", "iris, fallen", "paper")]
     with ThreadPoolExecutor(4) as pool:

@@ -34,6 +34,7 @@ def pushed():
     return tl.fly(tl.load_mission("one-push", {**shortened("one-push", 8.0), "mission.log_interval": 0.001}))
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("family", FAMILIES)
 def test_missions_at_random_end_as_the_judge_says(family):
     rows = [judged(drawn) for drawn in random_family(16, family, 3)]
@@ -42,11 +43,13 @@ def test_missions_at_random_end_as_the_judge_says(family):
     assert wrong == []
 
 
+@pytest.mark.thorough
 def test_where_nobody_pushes_no_mission_at_random_moves_a_metre():
     rows = [judged(drawn) for drawn in random_family(16, UNPUSHED, 2)]
     assert [f"{r.family}/{r.member} {r.base}: {r.verdict} {r.changes}" for r in rows if not r.confirmed] == []
 
 
+@pytest.mark.thorough
 def test_the_judge_says_no_where_a_vehicle_follows_nobody():
     unpushed = next(d for d in random_family(16, UNPUSHED, 12) if "sensor_faults" in d.changes)
     fault = {"sensor": "joints", "kind": "bias", "time": 5.0, "size": [1.0] * 3}

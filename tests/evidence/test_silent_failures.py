@@ -55,6 +55,7 @@ def silent_failure(base, changes):
     return metrics["outcome"] in FAILURES and not metrics["findings"]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("base", BASES)
 @settings(derandomize=True, deadline=None, max_examples=12, suppress_health_check=list(HealthCheck))
 @given(drawn=CHANGED)

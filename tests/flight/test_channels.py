@@ -160,6 +160,7 @@ print("followed")
 """
 
 
+@pytest.mark.thorough
 def test_a_channel_is_added_by_its_record_and_the_law_that_logs_it(tmp_path):
     package = EditedPackage(tmp_path)
     package.insert("flight/channels.py", 'Channel("N", "world", "force of the air on all parts together"),', RECORD)

@@ -69,6 +69,7 @@ def template():
     return MissionTemplate.read("iris", EVERYTHING)
 
 
+@pytest.mark.thorough
 @for_all(list(enumerate(sorted(SCHEMA))))
 def test_any_edge_is_taken_or_refused(template, case):
     number, key = case
@@ -77,6 +78,7 @@ def test_any_edge_is_taken_or_refused(template, case):
     check_taken_or_refused(lambda: template.mission({key: [edge] * sizes[0] if sizes else edge}))
 
 
+@pytest.mark.thorough
 @given(st.dictionaries(st.sampled_from(["mission", "vehicle", "pushes", "controller"]) | st.text(max_size=5), values))
 def test_any_tables_are_refused(tables):
     assert check_taken_or_refused(lambda: check(tables)) is None

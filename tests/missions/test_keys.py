@@ -59,6 +59,7 @@ def test_each_key_says_its_unit_its_meaning_its_choices_and_where_its_default_is
         assert facts.unset
 
 
+@pytest.mark.thorough
 @for_all(sorted({key.name for key in KEYS}))
 def test_explain_tells_each_key_in_one_to_three_lines(name):
     text = explained(name)
@@ -75,6 +76,7 @@ def test_explain_takes_a_key_of_a_list_with_a_number_with_brackets_and_with_neit
     assert explained("vehicle.quadrotors[].mass") == explained("vehicle.quadrotors.mass") == text
 
 
+@pytest.mark.thorough
 @for_all([s for s in sections() if not s.controller], lambda s: s.name)
 def test_explain_tells_each_table_and_its_keys(section):
     text = explained(section.name)

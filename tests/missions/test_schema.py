@@ -75,6 +75,7 @@ def at(key):
     return tuple(int(part) if part.isdigit() else part for part in key.split("."))
 
 
+@pytest.mark.thorough
 @for_all([key for key in SCHEMA if not key.startswith("controller.") and ".bodies." not in key])
 def test_it_takes_for_each_key_whatever_its_table_takes_and_knows_wrong_types(key):
     whole = every_table()

@@ -45,6 +45,7 @@ print([m for m in ("llvmlite", "matplotlib", "numba") if m in sys.modules])
     assert check_run(code) == ["False", "[]", "['llvmlite']"]
 
 
+@pytest.mark.thorough
 def test_a_second_process_finds_the_code_and_so_does_one_after_an_edit_that_changes_no_step(tmp_path):
     copy = tmp_path / "source"
     shutil.copytree(PACKAGE, copy / "tandemlift", ignore=shutil.ignore_patterns("__pycache__"))

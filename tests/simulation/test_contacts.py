@@ -53,6 +53,7 @@ def touches():
     return dict(zip(enumerate(KINDS * 2), flights, strict=True))
 
 
+@pytest.mark.thorough
 def test_touches_are_named_soon_in_their_direction_and_no_sensor_is_blamed(touches):
     for key, flight in touches.items():
         touch = touch_of(flight)
@@ -90,6 +91,7 @@ def test_the_reference_leaves_the_wall_and_does_not_return_while_the_contact_las
         assert way[-1] > 0.9 * min(gap, 0.1 * (until - found) * 0.002), key
 
 
+@pytest.mark.thorough
 def test_without_a_map_a_guard_that_touches_is_named_all_the_same():
     mission = touching(SIDE, 5)
     flight = tl.fly(
@@ -108,6 +110,7 @@ def test_a_contact_that_does_not_end_lands_the_vehicle():
     assert not flight["alarm"][flight["phase"] == CONTACT].any()
 
 
+@pytest.mark.thorough
 def test_the_same_touch_in_mujoco_is_named_likewise():
     mission = touching(SIDE, 5)
     ours, other = (touch_of(tl.fly(lasting(mission, 13.0), engine)) for engine in ("compiled", "mujoco"))
@@ -115,18 +118,21 @@ def test_the_same_touch_in_mujoco_is_named_likewise():
     assert other.speed == pytest.approx(ours.speed, abs=0.05)
 
 
+@pytest.mark.thorough
 def test_hands_are_no_contacts():
     led = random_persons("zigzag", 4, seed=3, changes={"supervision.model": "on", "mission.duration": 30.0})
     flown = tl.fly_many([*[lasting(jerky(i), 30.0) for i in range(4)], *led], keep="metrics")
     assert [contacts_named(metrics) for metrics in flown] == [0] * 8
 
 
+@pytest.mark.thorough
 def test_a_joint_sensor_that_breaks_under_a_hand_is_blamed_and_is_no_contact():
     flown = tl.fly_many([broken(i) for i in range(8)], keep="metrics")
     assert all(map(is_blamed, flown))
     assert [contacts_named(metrics) for metrics in flown] == [0] * 8
 
 
+@pytest.mark.thorough
 def test_a_flight_that_touches_nothing_is_the_same_with_and_without_the_watch():
     watched, other = (
         tl.fly(tl.load_mission("doorway", {"mission.duration": 25.0, "contact.model": model}))

@@ -59,6 +59,7 @@ def continuous():
     return solution.y.T
 
 
+@pytest.mark.thorough
 def test_halving_the_step_halves_the_distance_to_the_continuous_loop(continuous):
     distances, angles = [], []
     end = Rotation.from_quat(continuous[-1, 6:10], scalar_first=True)

@@ -62,6 +62,7 @@ def of_kind(flight, kind):
     return [f for f in flight.findings if f.kind == kind]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", FALSE)
 def test_where_nobody_pushes_the_vehicle_stays_where_it_hovers(flights, name):
     assert away(flights[name]).max() < AWAY
@@ -77,6 +78,7 @@ def test_it_stays_whatever_else_the_sensors_err_by_and_however_long_its_joints_d
     assert {name: a for name, f in zip(cases, flights, strict=True) if (a := away(f).max()) > AWAY} == {}
 
 
+@pytest.mark.thorough
 def test_a_gust_on_the_quadrotors_against_a_push_does_not_end_it():
     chance = np.random.default_rng(4)
     gusty = [drawn(chance, number) for number in range(13)][12]  # 1.8 N of gust while a hand pushes with 2.3 N
@@ -131,6 +133,7 @@ def test_a_push_of_one_newton_is_followed_for_half_a_minute():
         assert along[part].mean() == pytest.approx(speed, rel=0.15)
 
 
+@pytest.mark.thorough
 def test_a_hand_is_followed_closer_to_its_true_push_than_without_confirmation():
     how = {"motion": {}, "none": {"estimator.confirmation": "none"}, "truth": {"pilot.push": "truth"}}
     many = [tl.load_mission("iris", {**c, "mission.seed": seed}) for c in how.values() for seed in range(8)]

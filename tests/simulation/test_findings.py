@@ -65,6 +65,7 @@ def stretches(over):
     return ends[::2], ends[1::2] - ends[::2]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["calm", "answered"])
 def test_a_flight_that_goes_well_has_no_findings(flights, name):
     assert flights[name].findings == ()
@@ -271,6 +272,7 @@ def test_a_landing_by_fault_is_found_while_the_supervision_also_notes_a_contact(
     assert (found.time, found.text) == (2.5, "landed because of a fault: tilted too far")
 
 
+@pytest.mark.thorough
 def test_a_push_into_a_wall_without_response_names_the_wall():
     walls = [{"start": [20.0, -3.0], "end": [20.0, 3.0]}, {"start": [1.2, -3.0], "end": [1.2, 3.0]}]
     push = [{"force": [4.0, 0.0, 0.0], "time": 20.0, "sigma": 3.0}]

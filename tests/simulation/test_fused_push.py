@@ -61,6 +61,7 @@ def flights():
     return dict(zip(FLIGHTS, tl.fly_many(missions), strict=True))
 
 
+@pytest.mark.thorough
 def test_both_are_better_than_either(flights):
     rmse = {w: flights[w].metrics() for w in ("joints", "kalman", "fused")}
     squares = {w: np.square(m["push_force_rmse_n"]).sum() for w, m in rmse.items()}

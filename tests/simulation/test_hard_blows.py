@@ -30,6 +30,7 @@ def struck_hard(flight: tl.Flight) -> bool:
     return np.abs(flight["contact_force"]).max() > 50.0
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(
     ("seed", "changes", "step"),
     [(3, THIN, 0.001), (4, BARE, 0.002), (5, LONG, 0.005), (6, {}, 0.01)],
@@ -57,6 +58,7 @@ def test_hard_blows_in_a_room_with_a_pillar_add_no_energy():
     assert struck > 15
 
 
+@pytest.mark.thorough
 def test_the_recorded_force_of_a_blow_is_the_whole_change_of_momentum():
     fall = {"initial.velocity": [0.0, 0.0, -8.0], "vehicle.drag.force": 0.0}
     mission = thrown(fall | {"walls": [upright((-1.0, 0.3), (1.0, 0.3), -0.2)]})  # on a low wall

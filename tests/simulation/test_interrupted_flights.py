@@ -69,6 +69,7 @@ def settings(changes):
     return [f"--set={key}={json.dumps(value)}" for key, value in changes.items()]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("how", REASONS)
 def test_what_was_flown_until_the_engine_is_lost_is_kept_with_the_reason(how, lost, monkeypatch, tmp_path):
     mission = tl.load_mission("hover", SHORT)
@@ -87,6 +88,7 @@ def test_what_was_flown_until_the_engine_is_lost_is_kept_with_the_reason(how, lo
     assert saved == flight
 
 
+@pytest.mark.thorough
 def test_a_step_that_the_engine_did_not_take_leaves_no_trace_in_the_numbers(lost):
     lost()
     flight = RecordedFlight(interactive_mission(tl.load_mission("hover", GUIDED)), "gazebo")
@@ -98,6 +100,7 @@ def test_a_step_that_the_engine_did_not_take_leaves_no_trace_in_the_numbers(lost
     assert np.array_equal(flight.numbers(), before[-1])
 
 
+@pytest.mark.thorough
 def test_a_crash_after_which_it_flew_on_comes_before_the_interruption(lost):
     lost()
     tilted = {"crash.tilt": 0.15, "promise.tilt": 0.04, "initial.rates": [20.0, 0.0, 0.0]}  # from 0.14 rad on
@@ -120,6 +123,7 @@ def test_a_simulation_says_so_and_has_what_was_flown(lost):
         sim.step()
 
 
+@pytest.mark.thorough
 def test_many_flights_do_not_count_one_that_was_interrupted(lost):
     lost()
     with pytest.raises(EngineLost, match="Gazebo has ended"):
@@ -129,6 +133,7 @@ def test_many_flights_do_not_count_one_that_was_interrupted(lost):
     assert metrics["outcome"] == "interrupted"
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("last", [1, LAST])
 def test_run_writes_what_was_flown_and_ends_with_3(last, lost, run, tmp_path):
     lost(last=last)
@@ -189,6 +194,7 @@ class Server:
         self.plugin.close()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("options", [["--fast"], ["--by-hand"]])
 def test_the_command_gazebo_writes_what_was_flown_and_names_the_end_of_its_server(options, run, tmp_path, monkeypatch):
     monkeypatch.setattr("tandemlift.apps.ros.gazebo_flight.GazeboServer", Server)
@@ -208,6 +214,7 @@ def middleware(monkeypatch):
     return one
 
 
+@pytest.mark.thorough
 def test_the_node_says_why_the_engine_was_lost_and_saves_what_was_flown(lost, run, middleware, tmp_path):
     lost()
     code, _, errors = run("ros", "hover", "--version", "2", "--engine", "gazebo", "--save", "saved", *SETTINGS)

@@ -133,6 +133,7 @@ MISSIONS = {
 }
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", sorted(MISSIONS))
 def test_a_key_that_changes_nothing_cannot_act_and_one_that_cannot_act_changes_nothing(name):
     mission = load_mission(name, MISSIONS[name])
@@ -148,6 +149,7 @@ def test_a_key_that_changes_nothing_cannot_act_and_one_that_cannot_act_changes_n
     assert wrong == [], "\n".join(wrong)
 
 
+@pytest.mark.thorough
 def test_what_a_step_reads_in_vain_changes_no_bit_of_a_flight():
     start = {"mission.duration": 20.0, "mission.log_interval": 0.1}
     mission = load_mission("narrow", start)

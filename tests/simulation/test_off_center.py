@@ -38,6 +38,7 @@ TOLERANCES = {  # of an offset that the pilot does not know, and of a payload's 
 }
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("off", TOLERANCES)
 def test_it_flies_the_same_in_mujoco(off):
     changes = OFFSET | SCALES if off == "vehicle" else CENTER
@@ -128,6 +129,7 @@ def test_mass_and_inertia_are_those_of_the_parts_at_their_places():
     assert vehicle.inertia == pytest.approx(J, abs=1e-12)
 
 
+@pytest.mark.thorough
 def test_the_push_and_its_place_on_the_beam_are_felt_as_they_are():
     """A steady push of 2 N half a metre from the middle of the beam, by sensors without errors."""
     vehicle = vehicle_of()
@@ -140,6 +142,7 @@ def test_the_push_and_its_place_on_the_beam_are_felt_as_they_are():
     assert flight["payload_mass_estimate"][peak].mean() == pytest.approx(vehicle.payload.mass, abs=0.002)
 
 
+@pytest.mark.thorough
 def test_the_beam_stays_where_it_is_whatever_its_mass():
     """Its middle is at the origin, in pictures, in contact and in the distance from walls."""
     vehicle = vehicle_of()

@@ -82,6 +82,7 @@ def test_metrics_of_walls_and_persons_are_those_of_the_log(flown, name):
     assert metrics["human_work_per_path_j_m"] == pytest.approx(metrics["human_work_j"] / metrics["human_path_m"])
 
 
+@pytest.mark.thorough
 def test_any_of_a_handful_of_random_persons_gets_through():
     missions = persons(8)
     for metrics, mission in zip(tl.fly_many(missions, keep="metrics"), missions, strict=True):

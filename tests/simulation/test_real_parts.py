@@ -43,11 +43,13 @@ def test_the_storm_has_everything_in_it(alone):
     assert sum(f.ending is None for f in alone) == 8
 
 
+@pytest.mark.thorough
 def test_eight_flights_in_a_block_are_the_flights_alone_to_the_last_bit(alone):
     together = tl.fly_many(storms(8))
     assert [different(a, b) for a, b in zip(alone, together, strict=True)] == [[]] * 8
 
 
+@pytest.mark.thorough
 def test_step_by_step_with_a_controller_in_python_it_is_the_same_to_the_last_bit(by_hand):
     assert different(tl.fly(storm(by_hand)), tl.fly(storm())) == []
 
@@ -113,6 +115,7 @@ def shown(sample: Any, name: str) -> np.ndarray:
     raise KeyError(name)
 
 
+@pytest.mark.thorough
 def test_its_first_steps_are_those_of_plain_python():
     changes = {
         "mission.log_interval": DT,

@@ -102,6 +102,7 @@ def test_every_fault_of_the_table_is_flown():
     assert {row.text for row in ROWS} == TRIED_WITH.keys() | IN_PLAIN_PYTHON
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("row", [row for row in ROWS if row.text in TRIED_WITH], ids=lambda row: row.text)
 def test_every_fault_has_the_reaction_of_the_table_and_ends_safely(row, fly):
     fault, reaction = row.text, row.reaction

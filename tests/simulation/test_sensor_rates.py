@@ -32,6 +32,7 @@ def mission(name, duration=1.5, **keys):
     return tl.load_mission(name, {"mission.duration": duration, **keys})
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("case", CASES)
 def test_lanes_that_are_due_at_different_steps_equal_flights_alone_to_the_last_bit(case):
     name, keys = CASES[case]
@@ -55,12 +56,14 @@ def test_lanes_that_are_due_at_different_steps_equal_flights_alone_to_the_last_b
             sims[lane].reset()
 
 
+@pytest.mark.thorough
 def test_c_which_computes_every_step_in_full_has_the_same_bits(tmp_path):
     flown = unfused(mission("paper", 1.0, **STAGGERED, **REAL))
     wrong, _ = differences(CFlight(flown, tmp_path), flown, range(2))
     assert not wrong
 
 
+@pytest.mark.thorough
 def test_webassembly_has_the_same_bits(tmp_path):
     noise = {f"sensors.{of}": 0.01 for of in ("joints.force_noise", "accelerometer.noise", "motion.position_noise")}
     flown = unfused(mission("paper", 2.0, **RATES, **REAL, **noise))
@@ -71,6 +74,7 @@ def test_webassembly_has_the_same_bits(tmp_path):
         np.testing.assert_array_equal(there.log[: len(values), channel["columns"]], values)
 
 
+@pytest.mark.thorough
 def test_mujoco_reads_the_same_sensors_at_the_same_rates():
     keys = {**STAGGERED, "mission.log_interval": 0.001}
     ours, theirs = (tl.fly(mission("iris", 0.5, **keys), engine=engine) for engine in ("compiled", "mujoco"))
@@ -115,6 +119,7 @@ def by_hand(flight, k):
     return np.array(out)
 
 
+@pytest.mark.thorough
 def test_the_state_is_that_of_a_recursion_at_the_rate_of_the_imu_held_in_between():
     keys = {**RATES, "mission.log_interval": 0.001, "estimator.confirmation": "none"}
     m = mission("iris", 6.0, **keys)
@@ -156,6 +161,7 @@ def test_a_rate_of_every_step_flies_the_bits_of_a_flight_without_rates():
         np.testing.assert_array_equal(a[channel], b[channel], err_msg=channel)
 
 
+@pytest.mark.thorough
 def test_linearization_takes_the_common_period_of_all_sensors():
     m = mission("paper", 20.0, **{**RATES, **REAL, "sensors.joints.interval": 0.006})
     assert tl.linearize(m).step == pytest.approx(0.024)
@@ -167,6 +173,7 @@ def test_a_lane_may_not_change_to_another_kind_of_rate():
         block.reset(1, keys={"sensors.interval": 0.004})
 
 
+@pytest.mark.thorough
 def test_a_watchdog_does_not_take_joints_for_frozen_that_are_held_between_their_samples():
     keys = {"supervision.model": "on", "supervision.watchdog.frozen_samples": 10, "sensors.joints.interval": 0.02}
     flight = tl.fly(mission("iris", 5.0, **keys))

@@ -55,6 +55,7 @@ def test_models_and_pictures_show_the_box_about_its_origin(tmp_path):
     assert np.nanmax(beam, axis=0) == pytest.approx(vehicle.origin + np.array(SIZE) / 2.0)
 
 
+@pytest.mark.thorough
 def test_a_box_pushed_gently_against_a_wall_comes_back_as_in_mujoco():
     wall = {"walls": [{"start": [-2.0, 1.6], "end": [2.0, 1.6], "top": 9.0}], "initial.velocity": [0.0, 0.5, 0.0]}
     a, b = in_both(thrown(BOX | SLIPPERY | wall, 0.6))
@@ -158,6 +159,7 @@ def test_a_mesh_needs_its_file_and_density_and_nothing_beside(brick, changes, sa
         tl.load_mission("iris", of_mesh(brick, **changes))
 
 
+@pytest.mark.thorough
 def test_a_body_of_many_corners_is_led_through_a_corridor(tmp_path):
     trimesh = pytest.importorskip("trimesh")
     mesh = trimesh.creation.icosphere(subdivisions=3, radius=0.3)
@@ -203,6 +205,7 @@ WALLS = {  # start, end, velocity
 }
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", WALLS)
 def test_each_body_meets_walls_by_itself_at_the_instant_of_mujoco_and_is_held(name):
     start, end, velocity = WALLS[name]

@@ -140,6 +140,7 @@ def test_a_vehicle_that_cannot_follow_says_why_from_the_end_of_the_lift_on(name,
 CLEAN_ENDS = ["yaw moment of 3 N m", "rotors 35 % weaker", "30 N downwards", "six times the lag, three times the delay"]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", CLEAN_ENDS)
 def test_under_supervision_it_lands_in_time_and_says_why(name, flown):
     flight = flown(name, watched=True)

@@ -381,6 +381,7 @@ def test_without_supervision_a_number_that_is_not_finite_is_refused_and_nothing_
     assert np.isfinite(pilot.memory).all()
 
 
+@pytest.mark.thorough
 def test_by_hand_it_stops_its_rotors_for_good_when_asked():
     pilot, level = tl.Pilot(tl.load_mission("hover", {"pilot.guidance": "interactive"})), np.zeros(16)
     level[6] = 1.0

@@ -127,6 +127,7 @@ print(flight["position"].tobytes().hex()[-4000:], flight["rotor_thrusts"].tobyte
 """
 
 
+@pytest.mark.thorough
 @pytest.mark.skipif(
     platform.machine().lower() not in ("x86_64", "amd64"), reason="its processors are of the x86 family"
 )

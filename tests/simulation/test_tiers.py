@@ -40,6 +40,7 @@ LOST = {"detection.model": "residual"}  # in a corridor: with it, a step has nea
 IN_TARGETS = [pytest.param("zigzag", LOST, marks=pytest.mark.targets)]  # whose code takes long to optimise
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("name", "changes"), [("four", {}), *IN_TARGETS])
 def test_optimised_code_gives_the_bits_of_quick_code(name, changes, empty):
     missions = lanes(name, **changes)
@@ -51,6 +52,7 @@ def test_optimised_code_gives_the_bits_of_quick_code(name, changes, empty):
         assert different(a, b) == []
 
 
+@pytest.mark.thorough
 def test_blocks_of_any_length_give_the_same_bits(empty, monkeypatch):
     mission, flights = tl.load_mission("iris", {"mission.duration": 20.0}), []
     for number, length in enumerate((10**9, 2)):

@@ -57,6 +57,7 @@ def test_a_struck_rotor_gives_no_thrust_from_then_on(engine):
     assert (thrusts[soon][:, others] > 0.0).any(axis=1).all()  # the others go on
 
 
+@pytest.mark.thorough
 def test_ideal_rotors_stop_too():
     wall = {"walls": [{"start": [0.62, 0.7], "end": [0.52, 2.0], "top": 9.0}], "vehicle.quadrotors.0.guard_radius": 0.2}
     ideal = {"actuators.model": "ideal", "allocation.method": "pseudo-inverse"}

@@ -84,6 +84,7 @@ def test_a_refused_lift_is_told_unless_the_vehicle_lifts_later(check):
     assert found.time == 2.5  # of the refusal, not of the lift before
 
 
+@pytest.mark.thorough
 def test_a_failure_is_told_by_what_ended_the_flight_or_else_by_its_outcome():
     short = {"mission.duration": 4.5, "mission.log_interval": 0.1}
     pressed = {"disturbance.force": [0.0, 0.0, -30.0], "phases.lift_duration": 1.0}

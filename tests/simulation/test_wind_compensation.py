@@ -24,6 +24,7 @@ def landed():
     return flown(LANDING | ON)
 
 
+@pytest.mark.thorough
 def test_friction_at_touchdown_is_no_push(landed):
     """It was one of 41 N, to which the pilot gave way: the feet bounced with 112 N."""
     error, contact = landed
@@ -36,6 +37,7 @@ def test_in_calm_air_the_sensors_errors_come_through_times_the_ratio_of_drags(la
     assert np.sqrt(np.mean(error**2, axis=0)) == pytest.approx([0.06, 0.01, 0.02], abs=0.03)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("contact", ["none", "on"])
 def test_a_wall_at_a_guard_is_at_most_the_wind_that_it_may_be(contact):
     error, struck = flown(HIT | ON | {"contact.model": contact})

@@ -59,6 +59,7 @@ def test_the_tare_without_joint_sensors_finds_an_excess_mass_and_leaves_no_force
     assert np.abs(flown["push_estimate"][after].mean(axis=0)).max() < 0.1
 
 
+@pytest.mark.thorough
 def test_a_lost_rotor_is_named_beside_an_observer_and_landed_with():
     fault = {"quadrotor": 2, "rotor": 3, "time": 14.0}
     flight = tl.fly(tl.load_mission("rotor-loss", {**WITHOUT, "faults": [fault], "mission.log_interval": 0.01}))
@@ -71,6 +72,7 @@ def test_a_lost_rotor_is_named_beside_an_observer_and_landed_with():
     assert np.abs(flight["push_estimate"][(flight.time > 15.0) & (flight.time < 17.0), 2]).max() < 0.3
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("wrench", ["kalman", "fused"])
 def test_a_hand_is_no_lost_rotor(wrench):
     """Pushes down at the ends of the beam leave thrust and roll as a lost rotor does, but not pitch and yaw."""
@@ -83,6 +85,7 @@ def test_a_hand_is_no_lost_rotor(wrench):
     assert tl.fly(tl.load_mission("iris", changes)).metrics()["rotor_failure_detections"] == 0.0
 
 
+@pytest.mark.thorough
 def test_a_supervised_vehicle_without_joint_sensors_survives_a_lost_accelerometer():
     changes = {
         **WITHOUT,
@@ -93,6 +96,7 @@ def test_a_supervised_vehicle_without_joint_sensors_survives_a_lost_acceleromete
     assert tl.fly(tl.load_mission("iris", changes)).metrics()["outcome"].startswith("landed")
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("wrench", "part"), [("kalman", -1.0), ("fused", 1.0)])
 def test_a_wall_is_told_from_a_hand_by_motion_and_thrusts(wrench, part):
     """A push leads the beam onto a post between the guards, or a guard onto a post in its way; nobody feels a wall."""

@@ -109,6 +109,7 @@ def test_a_reader_of_parquet_alone_gets_the_numbers_of_the_baseline(folders, sco
         assert math.sqrt(np.mean(of_cases)) == pytest.approx(scored["kalman"][f"F {axis} (N)"], rel=2e-4)
 
 
+@pytest.mark.thorough
 def test_the_card_describes_every_column(folders):
     known = [name.strip() for key in benchmark_folder.MEANINGS for name in key.split(",")]
     for file in sorted(folders[0].rglob("*.parquet")):
@@ -137,6 +138,7 @@ def test_a_folder_with_another_or_a_missing_file_is_refused_by_its_name(folders)
         checked_folder(folders[1] / "certificate")
 
 
+@pytest.mark.thorough
 def test_an_own_law_flies_in_place_of_a_built_in_one(scored):
     assert scored["own_hybrid"] == scored["hybrid"]  # the same observer, by a file
     assert scored["own_law"] != scored["momentum"] == scored["momentum again"]  # which is back after it
@@ -173,6 +175,7 @@ def test_the_tables_fit_a_terminal_of_80_columns_whatever_the_names_and_lose_no_
             assert shown == {*rows} - {"m" * 90} | {"m" * 23 + "…"}
 
 
+@pytest.mark.thorough
 def test_a_function_has_the_errors_that_the_flight_has_of_the_same_estimate():
     """Channels have moments about the system's centre of mass, the metric is about the payload's."""
     changes = {"estimator.wrench": "kalman", "estimator.error_metrics": True, "mission.log_interval": 0.001}
@@ -207,6 +210,7 @@ REFUSED = {  # a file: its text, and the words of its refusal
 }
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", REFUSED)
 def test_an_entry_that_cannot_be_scored_is_named_with_its_reason(tmp_path, name):
     text, words = REFUSED[name]
@@ -286,6 +290,7 @@ def test_the_tables_that_ship_have_all_baselines_and_columns(quick):
         assert all(list(row) == [column.title for column in TABLES[kind]] for row in tables[kind].values())
 
 
+@pytest.mark.thorough
 def test_the_command_prints_the_row_beside_the_baselines(tmp_path):
     (tmp_path / "own_law.py").write_text(LAW)
     out = tmp_path / "out"

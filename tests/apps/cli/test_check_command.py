@@ -23,6 +23,7 @@ def test_a_mission_that_flies_well_is_ok(tmp_path):
     assert all(row.keys() >= {"check", "subject", "value", "limit", "unit", "margin", "text"} for row in rows)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("strict", "expected"), [((), 0), (("--strict",), 3)])
 def test_what_fails_is_said_with_its_key_and_ends_with_3_if_strict(strict, expected):
     code, text, _ = call("iris", "--set", "actuators.delay=0.1", *strict)

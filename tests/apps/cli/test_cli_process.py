@@ -27,6 +27,7 @@ def process(*arguments: str, folder: Path, **environment: str) -> subprocess.Com
     )
 
 
+@pytest.mark.thorough
 def test_in_a_terminal_of_ascii_the_template_goes_to_a_file_that_flies_and_an_error_is_shown(tmp_path):
     ascii_only = {"folder": tmp_path, "PYTHONIOENCODING": "ascii", "LC_ALL": "C", "PYTHONUTF8": "0"}
     template = process("template", **ascii_only)

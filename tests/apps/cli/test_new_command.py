@@ -64,6 +64,7 @@ def test_a_new_mission_flies_without_a_warning_and_without_a_finding(model, flow
     assert flight.findings == ()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("model", MODELS)
 def test_vehicles_of_any_weight_move_alike_under_pushes_that_suit_them(model, flown):
     """The rule: forces by mass, moments by inertia, so that accelerations are those of `iris`."""
@@ -126,6 +127,7 @@ def test_a_wrong_answer_is_refused_with_what_is_allowed(arguments, pieces, new, 
     assert not any(tmp_path.iterdir())
 
 
+@pytest.mark.thorough
 def test_a_file_is_overwritten_only_by_force(new, tmp_path):
     path = tmp_path / "a.toml"
     path.write_text("mine", "utf-8")
@@ -137,6 +139,7 @@ def test_a_file_is_overwritten_only_by_force(new, tmp_path):
     assert tl.load_mission(str(path)).vehicle.payload.length == 2.0
 
 
+@pytest.mark.thorough
 def test_a_file_of_any_name_is_a_mission(new, tmp_path):
     code, told, _ = new("my (böse) beam.toml")
     assert (code, told.splitlines()[-1]) == (
@@ -147,6 +150,7 @@ def test_a_file_of_any_name_is_a_mission(new, tmp_path):
     assert tl.load_mission(str(tmp_path / "my (böse) beam.toml")).mission.name == "my-b-se-beam"
 
 
+@pytest.mark.thorough
 def test_a_terminal_is_asked_for_what_no_option_gives_and_again_after_a_wrong_answer(new, tmp_path):
     code, output, _ = new("a.toml", "--center", 0, answers="crazyflie\n0.05\n0.4\n\n")
     assert code == 0
@@ -160,6 +164,7 @@ def soles(mission):
     return [q.position[2] - q.feet_depth for q in mission.vehicle.quadrotors]
 
 
+@pytest.mark.thorough
 def test_two_models_are_written_as_given_with_level_soles_and_fly(new, tmp_path):
     code, told, _ = new("a.toml", "--quadrotor", "iris", "--quadrotor", "x500")
     assert code == 0

@@ -63,6 +63,7 @@ def call(*arguments):
     return CliRunner().invoke(cli, ["shadow", *map(str, arguments)])
 
 
+@pytest.mark.thorough
 def test_a_table_on_two_clocks_is_shadowed_and_its_files_are_written(table, tmp_path):
     out = tmp_path / "out"
     options = ["--columns", table / "map.toml", "--mission", "iris", "--align", "--no-figures", "--out", out]

@@ -17,6 +17,7 @@ SMALL = ("--draws", 2, "--holdout", 8, "--budget", 16, *QUICK)
 call = partial(verb, "tune")
 
 
+@pytest.mark.thorough
 def test_it_prints_old_against_new_and_writes_mission_evidence_figures_and_page(tmp_path):
     out = tmp_path / "out"
     code, text, _ = call(

@@ -3,6 +3,7 @@
 import os
 import sys
 
+import pytest
 from patience import completed
 
 RUN = """
@@ -28,6 +29,7 @@ def run(folder, *arguments):
     return done.stdout.rpartition("loaded: ")[2].split(), {p.name: p.read_bytes() for p in folder.iterdir()}
 
 
+@pytest.mark.thorough
 def test_a_run_without_figures_loads_no_drawing_library_and_a_known_one_no_tables_or_laws(tmp_path):
     arguments = ("hover", "--no-figures", "--set", "mission.duration=1.0")
     first, before = run(tmp_path / "first", *arguments)
@@ -43,6 +45,7 @@ def test_a_run_without_figures_loads_no_drawing_library_and_a_known_one_no_table
     assert "tandemlift run mission.toml" in pages[1]
 
 
+@pytest.mark.thorough
 def test_another_setting_is_not_the_known_flight(tmp_path):
     for i, seconds in enumerate(("1.0", "0.5", "1.0")):
         loaded, files = run(tmp_path / str(i), "hover", "--no-figures", "--set", f"mission.duration={seconds}")

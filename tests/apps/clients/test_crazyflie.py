@@ -41,6 +41,7 @@ def test_it_answers_a_scan_an_echo_and_says_who_it_is(pair):
 # setpoints
 
 
+@pytest.mark.thorough
 def test_it_hovers_turns_and_lands_by_hover_setpoints(pair):
     pair.seconds(6.0, lambda: pair.both(hover(height=0.8)))
     assert [pair.state(i).position[2] for i in range(2)] == pytest.approx([0.8, 0.8], abs=0.03)
@@ -84,6 +85,7 @@ def test_one_client_carries_the_other_quadrotor_along(pair):
     assert pair.state(1).position == pytest.approx((0.3, -0.25, 0.5), abs=0.03)
 
 
+@pytest.mark.thorough
 def test_a_position_of_each_turns_the_beam_through_both(pair):
     c, s = math.cos(0.4), math.sin(0.4)
     places = [(-0.25 * s, 0.25 * c), (0.25 * s, -0.25 * c)]
@@ -159,6 +161,7 @@ def test_one_that_is_disarmed_in_flight_stops_its_rotors_and_the_other_keeps_to_
     assert pair.state(0).velocity[2] < -0.5
 
 
+@pytest.mark.thorough
 def test_one_that_was_disarmed_turns_its_rotors_once_it_is_armed_or_after_all_have_stood(pair):
     pair.seconds(3.0, lambda: pair.both(hover(height=0.5)))
     pair.devices[0].receive(DISARM)
@@ -211,6 +214,7 @@ def test_a_watchdog_that_is_not_fed_stops_the_rotors(pair):
 # high-level commander
 
 
+@pytest.mark.thorough
 def test_it_takes_off_goes_and_lands_on_paths_of_least_jerk_at_the_ends(pair):
     device = pair.devices[0]
     takeoff = header(8, 0) + struct.pack("<BBff?f", 7, 0, 0.6, 0.0, True, 2.0)
@@ -339,6 +343,7 @@ def test_parameters_are_read_written_and_kept_within_their_types(pair):
 # bad input
 
 
+@pytest.mark.thorough
 def test_setpoints_that_are_not_finite_or_far_beyond_limits_leave_the_flight_upright(pair):
     pair.seconds(4.0, lambda: pair.both(hover(height=1.0)))
     wild = [math.nan, math.inf, -math.inf, 3e38, -3e38, 1e9]

@@ -92,6 +92,7 @@ def test_a_port_in_use_is_refused_with_what_to_do(client):
             pass
 
 
+@pytest.mark.thorough
 def test_a_flight_in_real_time_logs_and_its_keys_can_be_set(client, tmp_path):
     mission = tl.load_mission("crazyflie-stick", dict(map(parse_setting, PILOT_ASIDE)))
     quads = quadrotors_of(mission)

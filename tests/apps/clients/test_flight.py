@@ -41,6 +41,7 @@ def test_a_mission_that_starts_in_the_air_is_refused_and_the_page_names_those_th
         assert f"`{name}`" in (starting if name in hovering else standing), name
 
 
+@pytest.mark.thorough
 def test_a_floor_under_the_vehicle_is_enough_and_one_far_below_is_not(tmp_path):
     assert stands("hover", **{"ground.model": "floor"})
     assert stands("four", **{"ground.model": "floor", "initial.euler": [0.0, 0.0, 0.0]})

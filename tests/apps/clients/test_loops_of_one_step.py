@@ -203,6 +203,7 @@ def test_a_quadrotor_without_a_setpoint_is_carried_by_the_same_thrust():
     assert quads.is_flying(1)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("share", "flies"), [(0.04, False), (0.06, True)])
 def test_a_twentieth_of_the_weight_is_a_flight(share, flies):
     quads = quadrotors()

@@ -62,6 +62,7 @@ def scripts(request):
     world.close()
 
 
+@pytest.mark.thorough
 def test_a_script_for_px4_changes_modes_by_their_names_where_the_heartbeat_names_px4(scripts):
     world, px4 = scripts.world, scripts.world.vehicles.vehicles[0].autopilot.kind == mavlink.MAV_AUTOPILOT_PX4
     for number, connection in enumerate(scripts.all, 1):

@@ -21,6 +21,7 @@ from tandemlift.missions import tables_of
 from tandemlift.missions.changes import MISSING
 
 
+@pytest.mark.thorough
 def test_both_take_off_fly_to_a_position_land_and_disarm(world):
     for i, client in enumerate(world.clients):
         assert client.last("HEARTBEAT").get_srcSystem() == i + 1

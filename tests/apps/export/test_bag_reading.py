@@ -26,6 +26,7 @@ def paper():
     return tl.fly(tl.load_mission("paper", {"mission.duration": 2.0}))
 
 
+@pytest.mark.thorough
 def test_a_bag_holds_the_whole_flight(flight, tmp_path):
     found = read_bag(export(flight, tmp_path / f"flight.{ENDINGS[flight.name]}"))
     assert list(found) == list(flight)
@@ -38,6 +39,7 @@ def test_a_bag_holds_the_whole_flight(flight, tmp_path):
     assert all(np.array_equal(found[name], flight[name]) for name in exact)
 
 
+@pytest.mark.thorough
 def test_metrics_of_a_bag_are_those_of_its_samples(flight, tmp_path):
     metrics = read_bag(export(flight, tmp_path / "flight.bag")).metrics()
     error = flight["reference_position"] - flight["position"]

@@ -22,6 +22,7 @@ def short(task, num_envs=1, **kwargs):
     return FlightVectorEnv(task, num_envs, changes={"mission.duration": TASKS[task].begin + 0.5}, **kwargs)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", NAMES)
 def test_gymnasiums_checker_accepts_every_environment(name):
     env = gym.make(f"tandemlift/{name}-v0")
@@ -46,6 +47,7 @@ def test_an_environment_alone_is_that_of_many_at_once(name):
     np.testing.assert_array_equal(many.block.state[2], alone.unwrapped.flights.block.state[0])
 
 
+@pytest.mark.thorough
 def test_an_episode_is_the_flight_of_a_simulation_and_its_reward_what_a_metric_has_grown_by():
     env = FlightVectorEnv("FollowHand", 2, interval=0.05)
     env.reset(seed=11)
@@ -85,6 +87,7 @@ def test_keys_in_options_last_for_an_episode_and_drawn_ones_are_drawn_anew():
     assert scales() == drawn
 
 
+@pytest.mark.thorough
 def test_random_persons_differ():
     env = FlightVectorEnv("FollowHand", 3, persons="random")
     env.reset(seed=0)

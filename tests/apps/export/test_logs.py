@@ -375,6 +375,7 @@ def test_what_is_no_table_or_no_log_is_refused(table, tmp_path):
 # ---- our own flights
 
 
+@pytest.mark.thorough
 def test_our_own_flight_is_the_same_log_from_its_file_and_from_its_bag(tmp_path):
     flight = tl.fly(tl.load_mission("iris", {"mission.duration": 0.3, "mission.log_interval": 0.001}))
     log = log_of(flight)

@@ -47,6 +47,7 @@ def up(trial, clock):
     return trial
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("frame", ["world", "base_world", "/base_world", "base_link", "payload", "joint_1", "joint_2"])
 def test_a_force_acts_in_its_frame_s_axes_and_at_its_origin(up, frame):
     vehicle = Vehicle.from_settings(up.session.flight.now.vehicle)

@@ -119,6 +119,7 @@ WRONG = {
 }  # fmt: skip
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", NAMES)
 def test_solutions_get_all_points_and_wrong_answers_a_hint(name):
     checks, text = checks_of(EXERCISES / name), source(name)
@@ -147,6 +148,7 @@ def test_notebooks_ask_for_what_their_checks_need(name):
     assert all(c["outputs"] == [] and c["execution_count"] is None for c in code)
 
 
+@pytest.mark.thorough
 def test_a_class_is_graded_and_what_misbehaves_is_named(tmp_path):
     first = "1-admittance"
     solution = EXERCISES / "solutions" / f"{first}.py"
@@ -201,6 +203,7 @@ def test_a_damaged_notebook_is_no_readable_json(tmp_path, content):
     )
 
 
+@pytest.mark.thorough
 def test_an_endless_cell_is_ended_and_named_although_it_catches_everything(tmp_path):
     loop = "while True:\n    try:\n        pass\n    except BaseException:\n        pass"
     handed_in(tmp_path, "cleo", "1-admittance", loop)
@@ -209,6 +212,7 @@ def test_an_endless_cell_is_ended_and_named_although_it_catches_everything(tmp_p
     assert re.search("cleo, 1-admittance: (cell 1|the start) did not end within 5 s", said), said  # by how busy it is
 
 
+@pytest.mark.thorough
 def test_where_nothing_was_compiled_yet_whole_notebooks_with_right_answers_get_all_points(tmp_path):
     for name in ("1-admittance", "4-allocation", "6-passivity"):  # which fly the same mission
         notebook = json.loads((EXERCISES / name / f"{name}.ipynb").read_text("utf-8"))
@@ -221,6 +225,7 @@ def test_where_nothing_was_compiled_yet_whole_notebooks_with_right_answers_get_a
     assert re.findall(r" (\d+)$", said, re.M) == ["10", "10", "10"], said
 
 
+@pytest.mark.thorough
 def test_the_command_prints_and_writes_a_table(tmp_path):
     for name in ("anna", "ben"):
         handed_in(tmp_path / "in" / name, "1-admittance", "1-admittance", source("1-admittance"))

@@ -115,6 +115,7 @@ def test_a_notebook_of_damaged_structure_has_a_line_that_names_the_cell(cells, r
         assert (found, [one.reason for one in skipped]) == ([], [f"is damaged: {reason}"])
 
 
+@pytest.mark.thorough
 def test_sources_that_python_cannot_read_and_many_lines_of_ipython_are_told_or_run(exercises, tmp_path):
     handed_in(tmp_path / "in", "anna", NAME, "!ls\n" * 1100, RIGHT)
     handed_in(tmp_path / "in", "ben", NAME, RIGHT, "a = '\0'")
@@ -242,6 +243,7 @@ def test_all_notebooks_together_may_take_three_quarters_of_the_memory(has, proce
     assert memory >= LEAST or at_once == 1
 
 
+@pytest.mark.thorough
 def test_the_memory_of_a_notebook_has_a_limit(exercises, tmp_path):
     limit = "import resource\nlimit = resource.getrlimit(resource.RLIMIT_AS)\nassert limit[0] != -1, limit"
     handed_in(tmp_path / "in", "anna", NAME, RIGHT, limit)

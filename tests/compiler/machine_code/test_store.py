@@ -90,6 +90,7 @@ def check_entries(cache):
     return [file for file in files if not file.stem.endswith(("-text", "-module"))]
 
 
+@pytest.mark.thorough
 def test_a_law_in_place_of_the_packages_own_flies_at_once_and_leaves_no_code_under_its_name(cache, right, monkeypatch):
     mission = tl.load_mission("one-push", CHANGES)
     started = pilot_at_start(mission).parameters.controller
@@ -117,6 +118,7 @@ def test_a_law_in_place_of_the_packages_own_flies_at_once_and_leaves_no_code_und
 # Several processes
 
 
+@pytest.mark.thorough
 def test_processes_that_compile_the_same_at_once_all_fly_and_leave_one_good_file(cache, right):
     processes = [started() for _ in range(2)]
     assert [check_output(process) for process in processes] == [right[0]] * 2
@@ -124,6 +126,7 @@ def test_processes_that_compile_the_same_at_once_all_fly_and_leave_one_good_file
     assert here() == right[0]
 
 
+@pytest.mark.thorough
 def test_after_a_process_is_killed_at_any_moment_the_next_one_flies(cache, right, monkeypatch):
     """Four are killed, from the first import until they have flown; nothing half is ever read."""
     monkeypatch.delenv("TANDEMLIFT_OPTIMISE")

@@ -103,6 +103,7 @@ def same(a, b):
 
 
 # Each compiles two loops for seconds: these have, together, every part that is mapped over quadrotors.
+@pytest.mark.thorough
 @pytest.mark.parametrize(("mission", "count"), [("iris", 8), ("gusts", 6), ("zigzag", 5)])
 def test_many_quadrotors_fly_alike_in_loops_and_written_out(mission, count, monkeypatch, tmp_path):
     missions = fleet(mission, count, **{"mission.duration": 4.0})
@@ -115,6 +116,7 @@ def test_many_quadrotors_fly_alike_in_loops_and_written_out(mission, count, monk
     assert same(tl.fly(missions[7]), together[7])
 
 
+@pytest.mark.thorough
 def test_sixty_four_quadrotors_fly_alone_and_in_a_block():
     missions = fleet("paper", 64, **{"mission.duration": 0.3})
     together = tl.fly_many(missions)

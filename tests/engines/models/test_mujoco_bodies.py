@@ -103,6 +103,7 @@ def excited(mission, vehicle, seconds):
         yield state, moved.readings, body
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("changes", [DIFFERENT, TURNED], ids=["as it really is", "turned"])
 def test_an_excited_vehicle_moves_and_feels_as_in_the_compiled_engine(changes):
     start = {"initial.euler": [0.2, -0.1, 0.4], "initial.velocity": [1.0, 0.5, -0.3], "initial.rates": [1.0, -2.0, 0.5]}
@@ -214,6 +215,7 @@ def test_friction_holds_below_its_limit_and_yields_above_it():
     assert gained == pytest.approx(0.5 * 0.2 * FRICTION * GRAVITY, rel=0.02)
 
 
+@pytest.mark.thorough
 def test_a_crooked_landing_goes_as_in_the_compiled_engine():
     fall = {
         "initial.euler": [0.02, -0.015, 0.3],

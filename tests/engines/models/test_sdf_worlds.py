@@ -26,6 +26,7 @@ def inertia_about(links):
     return mass, first, second
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", MISSIONS)
 def test_mass_centre_of_mass_and_inertia_of_a_world_are_the_true_vehicles(name, world):
     found = world(name)

@@ -1,6 +1,7 @@
 """How far guards and beam are from walls, against bounded least squares."""
 
 import numpy as np
+import pytest
 from among_walls import GUARD, LENGTH, PAIR, RADIUS, nearest, walls_of
 from hypothesis import assume, given
 from law_values import array, random_state, seeds
@@ -13,6 +14,7 @@ from tandemlift.parts.contact.walls import nearest_with, no_walls_near
 from tandemlift.parts.mechanics.wall_geometry import wall
 
 
+@pytest.mark.thorough
 @given(seed=seeds)
 def test_clearance_is_that_of_bounded_least_squares(seed):
     rng = np.random.default_rng(seed)

@@ -145,6 +145,7 @@ def test_a_beam_pressed_flat_on_a_wall_lies_on_both_ends(flown):
     assert abs(rows[-1, 12]) < 1e-4
 
 
+@pytest.mark.thorough
 def test_no_wall_presses_in_a_step_in_which_it_is_said_that_none_may(flown):
     w, frame, body = walls_of(FLAT), parts_layout_from(FLAT), free_body(FLAT.mass, FLAT.inertia)
     rows = flown(wandering(np.random.default_rng(4)), 6.0, ROOM, w)

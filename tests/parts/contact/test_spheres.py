@@ -60,6 +60,7 @@ def test_a_bare_rotor_is_pressed_by_the_depth_of_its_sphere_and_its_clearance_sa
     assert min(clearance(w, near, frame, s).rotors.rims) == pytest.approx(0.36 - 0.25 - 0.128)
 
 
+@pytest.mark.thorough
 def test_a_vehicle_thrown_into_a_room_leaves_no_wall_with_more_energy():
     room, rng, touched = arena("iris", ("walls", ROOM), *BARE), np.random.default_rng(0), 0
     for _ in range(12):

@@ -83,6 +83,7 @@ def features(vehicle: Vehicle, one: Wall, s: State) -> list[float]:
     return [*ends, *edges, nearest(center - start, [b, -along], [(-half, half), (0, 1)])]
 
 
+@pytest.mark.thorough
 @given(seed=seeds)
 def test_at_rest_force_and_moment_are_the_slope_of_the_elastic_energy(seed):
     """Of a wall near the beam and both guards; the distances are those of bounded least squares."""

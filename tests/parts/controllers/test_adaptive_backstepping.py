@@ -48,6 +48,7 @@ def test_it_flies_and_takes_a_constant_force_out_by_itself(made):
     assert tl.fly(lazy)["position_error"][-1, 0] == pytest.approx(-1.0 / m / (1.0 + c * c), rel=0.05)
 
 
+@pytest.mark.thorough
 def test_it_lands_iris(made):
     m = tl.fly(tl.load_mission("iris", controller=made[0])).metrics()
     assert m["outcome"] == "landed"

@@ -57,6 +57,7 @@ def scaled(v):
 IMPORTED = "from my_helpers import scaled"
 
 
+@pytest.mark.thorough
 def test_a_second_process_finds_the_compiled_law_until_what_it_computes_changes(own, tmp_path):
     """Each process imports all files anew; a comment changes no law, but a law called or a number read does."""
     called = ("tilt - attitude.angles", "scaled(tilt - attitude.angles)")

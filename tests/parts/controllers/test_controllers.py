@@ -49,6 +49,7 @@ def test_a_registered_controller_is_described():
         assert chosen.settings.__doc__, name
 
 
+@pytest.mark.thorough
 def test_both_controllers_of_the_guide_reach_the_height_and_agree_to_the_metrics(law, plain):
     longer = {"mission.duration": 10.5}
     compiled, interpreted = (tl.fly(tl.load_mission("hover", longer, controller=c)) for c in (law, plain))

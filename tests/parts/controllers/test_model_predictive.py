@@ -121,6 +121,7 @@ def test_the_wanted_states_follow_the_reference(mpc, planned):
     assert np.allclose(wanted[:, 6:10], Quat(np.cos(0.2), 0.0, 0.0, np.sin(0.2)))
 
 
+@pytest.mark.thorough
 def test_it_flies_to_a_place_away_with_thrusts_within_limits(mpc):
     changes = {"mission.duration": 5.0, "initial.position": [1.0, -1.0, 0.0], "phases.lift_start": 0.5}
     mission = tl.load_mission("hover", changes, controller=tl.load_controller(FILE))

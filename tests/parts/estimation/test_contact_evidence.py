@@ -239,6 +239,7 @@ def test_of_two_posts_that_explain_a_force_the_first_counts():
         assert np.array(found.offset) == pytest.approx(np.array([[-0.2, -0.2], [-0.25, -0.3], [0.0, 0.0]]))
 
 
+@pytest.mark.thorough
 def test_what_is_heard_of_a_steady_force_is_nothing_and_of_a_sudden_one_all():
     """Deviations from slow means: c_i = f_i + m_i s_i on the guards, p = m_L s − Σ f_i, T = m s, j_i = f_i."""
     base = dict.fromkeys(PushEstimator._fields, 0.0)

@@ -9,6 +9,7 @@ import pytest
 FILE = Path(__file__).parents[3] / "examples" / "observers" / "own_observer.py"
 
 
+@pytest.mark.thorough
 def test_the_data_set_is_read_without_us_and_an_observer_finds_the_push(tmp_path, monkeypatch):
     pytest.importorskip("pandas")
     parquet = pytest.importorskip("pyarrow.parquet")

@@ -207,6 +207,7 @@ def test_a_filter_of_one_axis_is_that_of_filterpy_for_samples_at_random_times(na
     assert filters[0].x[2, 0] * MASS == pytest.approx(0.3 * MASS, abs=0.5)
 
 
+@pytest.mark.thorough
 def test_the_unscented_filter_is_that_of_filterpy_with_rotations_by_scipy(tumbling):
     """Attitude and rates of the tumbling body with noise, the attitude at random samples."""
     kalman = pytest.importorskip("filterpy.kalman")

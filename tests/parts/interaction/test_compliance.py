@@ -118,6 +118,7 @@ def test_the_trajectory_is_that_of_the_filtered_admittance_where_no_limit_acts()
     assert np.abs(velocity[:, 0] - reference.sol(t)[5]).max() < 0.008
 
 
+@pytest.mark.thorough
 def test_no_push_makes_it_faster_or_more_abrupt_than_its_limits():
     changes = {"compliance.max_speed": 0.5, "compliance.max_acceleration": 1.2, "compliance.max_jerk": 6.0}
     rng = np.random.default_rng(1)
@@ -237,6 +238,7 @@ def test_leads_along_z_are_those_of_x_and_y_until_they_have_their_own():
     assert alike.reference_lead == 0.2
 
 
+@pytest.mark.thorough
 def test_an_identified_mass_is_accelerated_with_the_reference():
     """A heavier vehicle than assumed follows a push along x more closely, once tared."""
     changes = {"plant.mass_scale": 1.12, "pilot.state": "truth", "mission.duration": 26.0, "phases.land_start": 60.0}

@@ -118,6 +118,7 @@ def lowest(clearance, push, start=1.0, seconds=8.0, lead=NOT_LED):
     return np.array(heights)
 
 
+@pytest.mark.thorough
 def test_a_push_moves_the_reference_down_to_the_ground_only_where_there_is_no_clearance():
     heights = lowest(GroundClearance(0.1), lambda t: -50.0, seconds=5.0)
     assert heights.min() > 0.05  # the jerk is limited, so it brakes a little late
@@ -133,6 +134,7 @@ def test_a_push_upwards_takes_no_limit_from_a_reference_that_still_moves_down():
     assert 0.05 < against.min() < 0.2
 
 
+@pytest.mark.thorough
 def test_from_there_a_push_upwards_lifts_it_as_ever():
     up = lowest(GroundClearance(0.1), lambda t: -5.0 if t < 4.0 else 2.0)
     assert up.min() > 0.05

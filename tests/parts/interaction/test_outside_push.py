@@ -41,6 +41,7 @@ def engine(monkeypatch):
     return "pushed"
 
 
+@pytest.mark.thorough
 def test_its_force_moment_impulse_and_work_are_those_that_the_body_felt(engine):
     every_step = {"mission.duration": 16.0, "mission.log_interval": DT, "pushes": []}
     flight = tl.fly(tl.load_mission("iris", every_step), engine)
@@ -58,6 +59,7 @@ def test_its_force_moment_impulse_and_work_are_those_that_the_body_felt(engine):
     assert flight["push_estimate"][acting, 0].max() == pytest.approx(2.0, abs=0.1)  # the pilot's sensors feel it
 
 
+@pytest.mark.thorough
 def test_whoever_pushes_so_holds_the_vehicle_for_as_long(engine):
     by_hand = changed(interactive_mission(tl.load_mission("zigzag")), "mission.duration", 16.0)
     metrics = tl.fly(by_hand, engine).metrics()

@@ -144,6 +144,7 @@ def test_a_hand_moves_with_the_grip_until_the_vehicle_is_up_and_lets_go_at_the_e
     assert np.abs(array(output.start.force)).max() < 1e-4
 
 
+@pytest.mark.thorough
 def test_the_path_is_gone_along_leg_by_leg_with_a_rest_where_it_is_asked_for():
     path = ((1.0, 0.0), {"point": [1.0, 2.0], "dwell": 0.5}, (3.0, 2.0))
     person, memory, legs = company("steer", path, tremor=0.0)
@@ -173,6 +174,7 @@ def test_two_hands_turn_the_vehicle_towards_its_heading_and_hold_it_at_the_centr
     assert push_moment(output.start, LEVEL).z == pytest.approx(0.3 * person.settings.yaw_gain, abs=0.01)
 
 
+@pytest.mark.thorough
 def test_what_is_seen_late_is_reckoned_ahead():
     """A vehicle that moves and turns steadily is held by a hand that moves with the grip: no force but the wanted."""
     person, memory, _ = company("steer", ((100.0, 0.0),), tremor=0.0, grip=0.8, delay=0.2, speed=0.5)

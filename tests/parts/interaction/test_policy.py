@@ -120,6 +120,7 @@ def test_a_network_makes_no_force_where_there_is_no_damping_to_multiply():
         assert policy_damping(policy, push, v, 1.0)[0] == (0.0, 0.0, 0.0)
 
 
+@pytest.mark.thorough
 def test_weights_of_zero_are_the_admittance_to_the_bit():
     with_policy = tl.fly(tl.load_mission("zigzag", {**LED, "compliance.policy.weights": PolicyTable.zeros(2)}))
     without = tl.fly(tl.load_mission("zigzag", {**LED, "compliance.policy.model": "none"}))
@@ -129,6 +130,7 @@ def test_weights_of_zero_are_the_admittance_to_the_bit():
         assert (with_policy[channel] == without[channel]).all()
 
 
+@pytest.mark.thorough
 def test_the_factors_of_a_flight_are_those_of_its_push_and_motion():
     """By NumPy, from other channels; the push's rate, which no channel has, gets no weight."""
     rng = np.random.default_rng(5)
@@ -143,6 +145,7 @@ def test_the_factors_of_a_flight_are_those_of_its_push_and_motion():
     np.testing.assert_allclose(found, by_numpy(weights, inputs_by_numpy(F, np.zeros_like(F), v)), rtol=1e-4)
 
 
+@pytest.mark.thorough
 def test_flights_with_other_weights_fly_together_as_alone():
     rng = np.random.default_rng(6)
     changes = [{**LED, "compliance.policy.weights": random_weights(rng)} for _ in range(2)]

@@ -87,6 +87,7 @@ def test_a_beam_is_seen_as_the_shadow_of_a_cylinder():
     assert array(drag.payload) == pytest.approx(0.5 * DENSITY * 1.2 * np.array(shadows), rel=1e-5)
 
 
+@pytest.mark.thorough
 def test_drag_at_rest_is_zero_and_has_a_derivative(jax):
     drag, frame = drag_of(np.random.default_rng(0)), parts_layout_from(paper_vehicle())
 

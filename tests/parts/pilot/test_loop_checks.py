@@ -29,6 +29,7 @@ def test_the_closed_forms_of_a_load_agree_with_the_linear_model(controller):
         assert max_delay[axis] == pytest.approx(delay + 0.0015, rel=0.08), axis  # beside the step and the readings
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("case", range(4))
 def test_the_closed_forms_agree_with_the_linear_model_wherever_the_quadrotors_are(case):
     """Off the axes, with another inertia than the pilot believes: products of inertia mix roll, pitch and yaw."""

@@ -134,6 +134,7 @@ def test_a_state_that_is_not_a_number_is_named_as_the_fault_of_a_sensor():
     assert sampled(one, 1.0).lift is None
 
 
+@pytest.mark.thorough
 def test_a_simulation_says_it_too():
     one = tl.Simulation(tl.load_mission("hover", SUPERVISED))
     one.step()

@@ -43,6 +43,7 @@ def seen(view, size, point):
     return np.array(size) / 2.0 + view.focal * np.array([away @ right, -(away @ view.up)]) / (away @ ahead)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["follow", "side", "-120,12.5,6"])
 def test_the_arrow_of_a_push_appears_where_a_pinhole_camera_sees_it(flight, name):
     size = (480, 270)
@@ -113,6 +114,7 @@ def test_the_floor_touches_the_lowest_foot_of_the_flight_or_is_the_missions(flig
     assert FlightStage(dataclasses.replace(flight, mission=flight.mission | ground)).floor == -0.7
 
 
+@pytest.mark.thorough
 def test_a_picture_is_the_same_to_the_last_byte_and_shows_the_push(flight, tmp_path):
     one, two = (render(flight, tmp_path / name, Shot(size=TINY)) for name in ("a.png", "b.PNG"))
     assert one.read_bytes() == two.read_bytes()
@@ -137,12 +139,14 @@ def test_walls_are_seen_through_and_blended_in_the_order_that_depth_peeling_find
     assert (np.abs(drawn - peeled).max(axis=-1) > 2).sum() < 20  # at edges; an average of all layers: 137 pixels
 
 
+@pytest.mark.thorough
 def test_every_camera_shows_the_vehicle(flight):
     for name in ("overview", "front", "top", "30,40"):
         image = np.asarray(picture(flight, Shot(size=TINY, camera=camera_of(name)))).astype(int)
         assert (image.min(axis=-1) < 90).sum() > 10, name  # its dark parts
 
 
+@pytest.mark.thorough
 def test_an_animation_lasts_as_long_as_it_says(flight, tmp_path):
     done = []
     shot = Shot(start=2.0, end=4.0, fps=10.0, speed=2.0, size=TINY)
@@ -194,6 +198,7 @@ def run(*args):
     return CliRunner().invoke(command, args, catch_exceptions=False)
 
 
+@pytest.mark.thorough
 def test_the_command_draws_saved_flights_and_missions(flight, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     flight.save("results/flight.npz")

@@ -59,6 +59,7 @@ def boxes(data, start=0, end=None):
         start += size
 
 
+@pytest.mark.thorough
 @needs_ffmpeg
 def test_the_index_stands_first_and_the_video_is_avc_of_its_size(written):
     data = written.read_bytes()
@@ -113,6 +114,7 @@ def test_an_ffmpeg_that_fails_leaves_nothing_and_its_words_are_told(script, flig
     assert list((tmp_path / "there").iterdir()) == []
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("dies", [False, True])
 def test_a_second_process_draws_the_same_bytes_and_the_first_one_all_if_it_dies(flight, monkeypatch, dies):
     drawn = [image.tobytes() for image in Animation(flight, SHOT)]

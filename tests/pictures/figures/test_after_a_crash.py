@@ -20,6 +20,7 @@ def flight(request):
         return tl.fly(tl.load_mission("one-push", FALL | {"crash.fly_on": request.param}))
 
 
+@pytest.mark.thorough
 def test_figures_over_time_mark_the_crash_and_are_scaled_to_the_time_before_it(flight):
     goes_on = flight.mission["crash"]["fly_on"] > 0.0
     assert counted_until(flight) == (flight.ending.time if goes_on else None)

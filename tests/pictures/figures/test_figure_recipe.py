@@ -1,5 +1,6 @@
 """The recipe "Add a figure" of CONTRIBUTING.md, followed: its file and its place among the others, and it is drawn."""
 
+import pytest
 from edited_package import EditedPackage
 
 FIGURE = '''"""The speed of the air over time."""
@@ -44,6 +45,7 @@ print("drawn")
 """
 
 
+@pytest.mark.thorough
 def test_a_figure_is_added_by_its_file_and_its_place_among_the_others(tmp_path):
     package = EditedPackage(tmp_path)
     package.write("pictures/figures/air.py", FIGURE)

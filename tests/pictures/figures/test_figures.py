@@ -211,6 +211,7 @@ def test_intervals_hold_the_active_samples_and_no_others(active):
     assert (spans[:, 0] <= spans[:, 1]).all()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["hover", "one quadrotor", "four quadrotors"])
 def test_every_figure_of_every_flight_is_drawn_whole_without_a_warning(flights, name):
     for figure_name, kind in figures_for(flights[name]).items():
@@ -232,6 +233,7 @@ def test_a_long_flight_stays_small_and_keeps_its_peaks(paper, tmp_path):
     assert figure_style.save(figure, tmp_path / "inputs.pdf").stat().st_size < 100_000
 
 
+@pytest.mark.thorough
 def test_saving_writes_every_figure_as_png_and_pdf_and_tells_how_far_it_is(paper, tmp_path):
     told = []
     files = save_figures(paper, tmp_path / "new" / "figures", lambda done, total: told.append((done, total)))

@@ -112,6 +112,7 @@ def test_figures_of_fleets_of_any_size_are_drawn_whole(windy, count):
         assert said == (["quadrotors 1 to 8 of 10"] if count == 10 else [])
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["no sample", "diverged to infinity"])
 def test_every_figure_of_flights_that_end_early_is_drawn_whole_without_a_warning(windy, name):
     huge = cut(windy, 50, ending=Ending("velocity", 0.49, float("inf"), "must be finite"))

@@ -31,6 +31,7 @@ def places(figure, labels=False):
     return np.array([text.get_window_extent(renderer).extents for text in texts])
 
 
+@pytest.mark.thorough
 def test_labels_of_axes_stay_where_the_drawing_library_puts_them_also_in_other_resolutions(flight):
     for name in NAMES:
         figure = figures()[name].draw(flight)
@@ -45,6 +46,7 @@ def test_labels_of_axes_stay_where_the_drawing_library_puts_them_also_in_other_r
             assert np.abs(places(twin, labels=True) - before).max() < 2.0
 
 
+@pytest.mark.thorough
 def test_axes_measured_once_are_laid_out_as_those_measured_twice(flight, monkeypatch):
     for name in NAMES:
         once = figures()[name].draw(flight)

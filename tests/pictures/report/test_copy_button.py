@@ -82,6 +82,7 @@ def test_the_page_fits_the_screen_and_every_button_can_be_pressed(browser, path,
     page.context.close()
 
 
+@pytest.mark.thorough
 def test_without_scripts_there_is_no_button_that_does_nothing(browser, path):
     page = opened(browser, path, java_script_enabled=False)
     assert page.locator(".command code").first.is_visible()

@@ -190,6 +190,7 @@ def test_a_soft_gate_passes_the_closed_form_of_what_exceeds_the_threshold():
     assert gaussian_displacement(push, {**admittance, "gate": "soft"}, 0) == pytest.approx(passed, rel=1e-6)
 
 
+@pytest.mark.thorough
 def test_the_pdf_has_the_figures_tables_and_errata(pdf):
     pypdf = pytest.importorskip("pypdf")
     pages = pypdf.PdfReader(pdf).pages

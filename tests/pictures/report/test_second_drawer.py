@@ -43,6 +43,7 @@ def drawn(flight, folder):
     return {file.name: file.read_bytes() for file in folder.iterdir()}
 
 
+@pytest.mark.thorough
 @needs_fork
 @pytest.mark.parametrize("count", [0, 1])
 def test_two_processes_write_the_bytes_of_one(count, flight, alone, tmp_path, monkeypatch):

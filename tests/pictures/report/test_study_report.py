@@ -238,6 +238,7 @@ def test_captions_name_what_curves_and_maps_pool(page):
     assert "pooled" not in captions(page)["Distributions"]
 
 
+@pytest.mark.thorough
 def test_chosen_metrics_are_shown_and_no_others(study, tmp_path):
     text = write_study_report(study, tmp_path / "chosen.html", ["human_work_j"]).read_text("utf-8")
     assert "<h3>Human work [J]</h3>" in text
@@ -287,6 +288,7 @@ def test_a_study_all_of_whose_flights_failed_has_a_page_with_the_ten_that_failed
     assert captions(page)["Maps"].endswith("Hatched: no row, or of a quantity no row that ended well.")
 
 
+@pytest.mark.thorough
 def test_a_study_that_is_not_finished_says_so_and_an_empty_one_is_refused(study, tmp_path):
     part = without_file(study, 1, tmp_path / "part")
     text = write_study_report(part, tmp_path / "report.html").read_text("utf-8").replace("\u202f", "")

@@ -139,8 +139,8 @@ CALM = {
 }  # fmt: skip
 OSCILLATION = OscillationLimits(Swings(0.3, 0.3, 0.3, 0.15), shortest=0.02, longest=2.0, halves=4.0)
 FOUND = FindingLimits(
-    settled=1.0, distance=0.1**2, heading=0.2, upright=np.cos(0.25), mass=3.0, thrust=40.0**2, rate=0.3**2,
-    push=LIMITS, unpushed=1.0, oscillation=OSCILLATION,
+    settled=1.0, distance=0.1**2, sinking=0.05, heading=0.2, upright=np.cos(0.25), mass=3.0, thrust=40.0**2,
+    rate=0.3**2, push=LIMITS, unpushed=1.0, oscillation=OSCILLATION,
 )  # fmt: skip
 STILL = SimpleNamespace(position=ZERO)
 
@@ -163,6 +163,8 @@ def detected(sample, seconds=3.0, running=1.0):
 def test_nothing_is_watched_of_a_vehicle_whose_rotors_stand_still():
     far = {"position": Vec3(0.08, 0.0, -0.08)}
     assert detected(lambda t: far).distance.steps == pytest.approx(200.0, abs=1)  # once settled
+    assert detected(lambda t: far).sinking.worst == pytest.approx(0.08)
+    assert detected(lambda t: {"position": Vec3(0.08, 0.0, 0.08)}).sinking.steps == 0.0
     assert detected(lambda t: far, running=0.0).distance.steps == 0.0
 
 

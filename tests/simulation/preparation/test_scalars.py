@@ -49,6 +49,7 @@ def test_flights_of_other_seeds_alone_fly_in_a_block_with_the_bits_and_logs_of_f
     assert code_of(flown).about["own"] == ["sensors"]
 
 
+@pytest.mark.thorough
 def test_five_quadrotors_whose_sets_are_loops_do_so_too(new_code):
     one = tl.load_mission("iris").vehicle.quadrotors[0].model_dump(mode="json", exclude_none=True)
     places = [{**one, "position": [0.0, y, 0.075]} for y in (-1.6, -0.8, 0.0, 0.8, 1.6)]
@@ -67,6 +68,7 @@ def test_a_bit_is_a_difference_even_of_zero():
     assert code.parts_that_differ([one, *others, other]) == {"plant"}
 
 
+@pytest.mark.thorough
 def test_a_block_keeps_its_scalars_until_a_lane_differs_and_every_lane_flies_on_with_its_bits(new_code):
     name, lanes = "iris", 2 * LANES
     block = tl.Block(tl.load_mission(name, SHORT), lanes)

@@ -84,6 +84,7 @@ def assert_close(found, wanted):
     assert np.all(np.abs(found - wanted) <= 1e-12 * np.abs(wanted) + 1e-16)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", MISSIONS)
 def test_the_graph_gives_the_numbers_of_the_plain_assembly(name):
     plain, traced = assemble(mission_of(name)), trace_of(name)
@@ -107,6 +108,7 @@ def test_every_number_is_an_input_or_fixed_for_a_reason(name):
     assert len(traced.keys) >= 0.95 * len(numbers)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["iris, other parts", "rotor-loss, interactive", "zigzag"])
 def test_the_graph_at_other_numbers_is_a_fresh_trace_to_the_last_bit(name):
     traced = trace_of(name)

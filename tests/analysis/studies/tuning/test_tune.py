@@ -194,6 +194,7 @@ def test_ctrl_c_keeps_the_best_so_far_and_writes_it_as_unfinished(tmp_path):
     assert json.loads((tmp_path / EVIDENCE_FILE).read_text("utf-8"))["finished"] is False
 
 
+@pytest.mark.thorough
 def test_a_search_that_was_stopped_goes_on_in_its_folder_with_the_bits_of_one_that_was_not(tmp_path, monkeypatch):
     def interrupt(tried, budget, lowest):
         if tried >= 24:
@@ -333,6 +334,7 @@ def test_a_short_training_saves_other_persons_work_and_force(trained):
     assert trained.old == tuple(PolicyTable.zeros(1))
 
 
+@pytest.mark.thorough
 def test_what_was_trained_flies_as_a_file_and_trains_on(trained, tmp_path):
     mission = tl.load_mission(trained.save(tmp_path))
     assert mission.compliance.policy.model == "network"

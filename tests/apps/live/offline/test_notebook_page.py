@@ -15,6 +15,7 @@ widget.default.render({ model: { get: name => state[name] }, el: document.getEle
 </script>"""
 
 
+@pytest.mark.thorough
 def test_a_widget_flies_in_the_cell_of_a_notebook(browser, tmp_path):
     widget = tl.page("hover", height=480)
     state = {"html": widget.html, "height": widget.height}

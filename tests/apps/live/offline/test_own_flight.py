@@ -105,6 +105,7 @@ def test_one_number_of_a_link_stands_for_all_axes_of_a_gain_but_for_no_direction
 # saved files
 
 
+@pytest.mark.thorough
 def test_a_saved_flight_flies_again_to_the_last_bit(flight, tmp_path):
     flight.say("grab", point=[0.1, 0.4, 0.0], target=[0.4, 0.2, 1.3], at="point")
     flight.fly(1.0)
@@ -259,6 +260,7 @@ def test_what_was_made_is_kept_until_the_mission_changes_and_not_with_an_own_con
     assert page_modules.PageFlight(*own).ready is None
 
 
+@pytest.mark.thorough
 def test_several_missions_are_made_by_processes_as_each_alone(hover, tmp_path, monkeypatch):
     mine = tmp_path / "mine.toml"
     mine.write_text('extends = "hover"\n[mission]\nname = "mine"\n', "utf-8")
@@ -287,6 +289,7 @@ def test_every_setting_and_every_rotor_of_a_page_is_a_number_that_its_module_tak
 # the challenge
 
 
+@pytest.mark.thorough
 def test_a_flight_through_a_corridor_has_the_score_of_its_saved_file(corridor, tmp_path):
     flight = OwnFlight(corridor)
     flight.fly(6.0)

@@ -76,6 +76,7 @@ def test_a_shake_and_a_tap_are_recorded_step_by_step_and_fly_again_to_the_last_b
     assert 0.02 < time[tap[-1]] - time[tap[0]] < 0.06  # s
 
 
+@pytest.mark.thorough
 def test_an_own_mission_with_an_own_controller_flies_from_the_file_that_the_command_wrote(browser, tmp_path):
     mission, controller = tmp_path / "mine.toml", ROOT / "docs" / "reference" / "listings" / "my_pd.py"
     mission.write_text('extends = "hover"\n[mission]\nname = "mine"\n[vehicle.payload]\nmass = 0.7\n', "utf-8")
@@ -123,6 +124,7 @@ def test_an_edited_page_says_that_its_flight_is_damaged(browser, hover, tmp_path
     page.close()
 
 
+@pytest.mark.thorough
 def test_a_browser_without_webassembly_is_told_so_and_shown_a_recorded_flight(browser, address):
     page = opened(browser, address, lambda one: one.add_init_script("delete globalThis.WebAssembly"))
     until(lambda: "runs no WebAssembly" in page.inner_text("#notices"), "the sentence")

@@ -156,6 +156,7 @@ def check_same(session, flight, message, seconds):
         assert untimed(status) == statuses[status["recorded_s"]], message
 
 
+@pytest.mark.thorough
 def test_it_flies_and_answers_as_a_session_to_the_last_bit(session, flight, tmp_path):
     for message, seconds in MOVES:
         check_same(session, flight, message, seconds)
@@ -163,6 +164,7 @@ def test_it_flies_and_answers_as_a_session_to_the_last_bit(session, flight, tmp_
     np.testing.assert_array_equal(last.view(np.int64), session.flight.sample.view(np.int64))
 
 
+@pytest.mark.thorough
 def test_every_refusal_is_that_of_a_session(session, flight):
     for message in [*REFUSED, *ABSENT, *wrong_values(session.scene)]:
         refused = answers_of(session, message)
@@ -170,6 +172,7 @@ def test_every_refusal_is_that_of_a_session(session, flight):
         assert said_by(flight, message) == refused
 
 
+@pytest.mark.thorough
 def test_requests_are_refused_for_the_same_reasons_from_the_ground_to_the_air_and_back(by_hand):
     session, flight = by_hand
     lift, land = ({"type": "ask", "what": what} for what in ("lift", "land"))
@@ -201,6 +204,7 @@ def test_requests_are_refused_for_the_same_reasons_from_the_ground_to_the_air_an
         assert part in told, part
 
 
+@pytest.mark.thorough
 def test_a_crash_ends_both_with_the_same_words_at_the_same_place_until_both_begin_again(by_hand):
     session, flight = by_hand
     check_same(session, flight, {"type": "ask", "what": "lift"}, 3.0)
@@ -220,6 +224,7 @@ def test_a_crash_ends_both_with_the_same_words_at_the_same_place_until_both_begi
     assert flight.status()["phase"] == "idle"
 
 
+@pytest.mark.thorough
 def test_a_fall_says_in_both_what_was_hit_and_how_hard_in_three_digits(by_hand):
     session, flight = by_hand
     for what, seconds in (("lift", 3.0), ("stop", 1.5)):

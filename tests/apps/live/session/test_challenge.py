@@ -64,6 +64,7 @@ def run(*args):
     return result.exit_code, result.output, str(result.exception or "")
 
 
+@pytest.mark.thorough
 def test_the_quicker_one_wins_and_who_left_the_corridor_is_refused_with_the_time(handed_in):
     code, said, _ = run(handed_in / "in", "--mission", handed_in / "class.toml")
     head, first, second, refused = said.splitlines()
@@ -106,6 +107,7 @@ def test_what_participants_may_change_is_free(handed_in, tmp_path):
     assert said.splitlines()[1].split()[:2] == ["1", "dora-4.5s"]
 
 
+@pytest.mark.thorough
 def test_a_file_of_a_page_without_a_server_is_ranked_although_it_rounds_in_its_own_way(handed_in, tmp_path):
     challenge = tl.load_mission(handed_in / "class.toml", {"mission.fma": False})  # as in `page_modules.page_mission`
     pulled(challenge, (1.5, 0.0, 0.0), 9.0).save(tmp_path / "saved")

@@ -80,6 +80,7 @@ def test_a_tap_is_one_pulse_of_its_force_and_duration_behind_the_low_pass_of_the
     assert np.abs(felt[-20:]).max() < 0.02
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("frequency", [0.5, 4.0, 10.0])
 def test_a_shake_swings_with_its_force_and_frequency_until_it_is_let_go(session, frequency):
     up(session)

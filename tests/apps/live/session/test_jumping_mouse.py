@@ -3,6 +3,7 @@
 import warnings
 
 import numpy as np
+import pytest
 
 import tandemlift as tl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
@@ -30,6 +31,7 @@ def jumping_mouse(rng):
     return targets
 
 
+@pytest.mark.thorough
 def test_rotors_do_not_chatter_while_the_mouse_jumps():
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", tl.FlightWarning)

@@ -20,6 +20,7 @@ def values(session):
     return {one["key"]: (one["value"], one.get("initial")) for one in session.scene["parameters"]}
 
 
+@pytest.mark.thorough
 def test_a_chosen_mission_flies_as_if_the_session_had_begun_with_it(session, tmp_path):
     fly(session, 0.5)
     say(session, "set", key="admittance.mass", value=3.0)

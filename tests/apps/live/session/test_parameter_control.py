@@ -83,6 +83,7 @@ def test_a_rotor_that_cannot_fail_is_not_killed(session):
         say(session, "kill", rotor=3)
 
 
+@pytest.mark.thorough
 def test_another_controller_takes_over_at_once(session):
     fly(session, 3.0)
     say(session, "set", key="controller.name", value="pid")

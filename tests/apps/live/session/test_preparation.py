@@ -62,6 +62,7 @@ def viewer_at(address):
     return connect(**where, open_timeout=PATIENCE, ping_timeout=None)
 
 
+@pytest.mark.thorough
 def test_page_scene_and_vehicle_are_there_while_it_compiles_and_then_it_flies_whoever_has_left(compiling):
     _, address, goes_on = compiling
     with viewer_at(address) as socket:

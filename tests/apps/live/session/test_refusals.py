@@ -1,5 +1,6 @@
 """A session says why a lift, a landing or a push has no effect, to who asked and in its status."""
 
+import pytest
 from sessions import fly, say, seen, up
 
 import tandemlift as tl
@@ -50,6 +51,7 @@ def test_before_the_first_step_nothing_is_said_to_be_refused(tmp_path):
     assert set(one.status()["refusals"].values()) == {""}
 
 
+@pytest.mark.thorough
 def test_zigzag_pulled_against_a_wall_names_what_touches_it_and_then_why_it_does_not_lift(tmp_path):
     one = Session(tl.load_mission("zigzag"), out=tmp_path)
     one.prepare()

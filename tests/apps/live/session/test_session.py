@@ -113,6 +113,7 @@ def test_a_session_that_still_compiles_is_stopped_at_once(tmp_path, monkeypatch)
     one._thread.stop(wait=True)
 
 
+@pytest.mark.thorough
 def test_optimised_code_takes_over_while_it_flies(tmp_path, monkeypatch):
     monkeypatch.setenv("TANDEMLIFT_CACHE", str(tmp_path / "cache"))
     monkeypatch.setattr("tandemlift.simulation.plan.LOOP_CODE", LastUsed(8))

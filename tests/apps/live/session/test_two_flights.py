@@ -64,6 +64,7 @@ def frames_while_flown_again(session, monkeypatch):
         yield frames
 
 
+@pytest.mark.thorough
 def test_a_ghost_keeps_its_settings_and_feels_the_same_hand(session, frames_while_flown_again):
     assert "ghost" not in session.scene
     session._fly(HOVERS)
@@ -97,6 +98,7 @@ def test_a_ghost_keeps_its_settings_and_feels_the_same_hand(session, frames_whil
     assert "ghost" not in session.scene
 
 
+@pytest.mark.thorough
 def test_settings_that_are_changed_during_a_pause_are_those_of_the_ghost(session):
     session._fly(200)
     session.apply(SetMessage(seq=1, key=DAMPING, value=(9.0, 9.0, 9.0)))
