@@ -184,6 +184,7 @@ def functions_of(text):
     return found
 
 
+@pytest.mark.thorough
 def test_its_functions_are_short_allocate_nothing_and_name_their_laws():
     _, texts = flown_in_c("iris")
     source = texts["iris_pilot.c"] + texts["iris_flight.c"]

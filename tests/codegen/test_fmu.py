@@ -82,6 +82,7 @@ def test_a_whole_flight_has_the_bits_of_the_record(name, fmi, fmu):
     assert len(names) == (sum(not name.endswith("_stamp") for name in flight.channels) if fmi == 3 else rows.shape[1])
 
 
+@pytest.mark.thorough
 @BOTH
 @pytest.mark.parametrize("name", ["paper", "iris", *IN_TARGETS])
 def test_a_pilot_has_the_thrusts_of_the_native_one(name, fmi, fmu):
@@ -265,6 +266,7 @@ def test_steps_off_the_sample_time_are_refused_by_name(fmi, fmu):
         assert instance.said[-1].startswith("step-off-sample-time: ")
 
 
+@pytest.mark.thorough
 @BOTH
 def test_a_state_is_restored_also_in_another_instance(fmi, fmu):
     described = fmu("iris", "flight", fmi)
@@ -342,6 +344,7 @@ def test_all_functions_are_there_and_those_of_other_kinds_refuse(fmu):
         assert instance.said[-1] == f"fmi{fmi}{name}: this FMU has no such thing"
 
 
+@pytest.mark.thorough
 def test_descriptions_have_keys_units_bounds_and_arrays(fmu):
     flat, arrays = fmu("iris", "flight", 2), fmu("iris", "flight", 3)
     mass = next(v for v in flat.variables if v.get("name") == "vehicle.payload.mass")

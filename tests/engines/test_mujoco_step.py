@@ -206,6 +206,7 @@ def test_a_body_goes_when_nothing_holds_it():
     assert gone() is None
 
 
+@pytest.mark.thorough
 def test_steps_from_python_and_all_at_once_are_the_same():
     mission = mission_named("iris, fallen")
     sim = tl.Simulation(mission, "mujoco")

@@ -62,6 +62,7 @@ def test_touches_are_named_soon_in_their_direction_and_no_sensor_is_blamed(touch
         assert any(text.startswith("contact: ") for text in events(flight)), key
 
 
+@pytest.mark.thorough
 def test_the_part_the_place_and_the_wall_are_those_of_the_mission(touches):
     for (i, kind), flight in touches.items():
         found = np.flatnonzero(flight["contact_part"])[0]

@@ -69,6 +69,7 @@ def test_where_nobody_pushes_the_vehicle_stays_where_it_hovers(flights, name):
     assert flights[name].outcome == "landed"
 
 
+@pytest.mark.thorough
 def test_it_stays_whatever_else_the_sensors_err_by_and_however_long_its_joints_drift():
     names = ("joints", "accelerometer", "gust that stays", "gust over the tare")
     drifts = [(0.05, 109), (0.05, 111), (0.2, 111), (0.2, 147)]
@@ -94,6 +95,7 @@ def test_it_stays_as_the_wind_goes_though_the_joints_have_drifted_by_what_it_sho
     assert [a for f in flights if (a := away(f).max()) > AWAY] == []
 
 
+@pytest.mark.thorough
 def test_without_confirmation_a_finding_has_the_distance_by_which_the_reference_moved(flights):
     flight = tl.fly(tl.load_mission("iris", {"pushes": [], **FALSE["joints"], "estimator.confirmation": "none"}))
     (found,) = of_kind(flight, "response-without-push")

@@ -71,6 +71,7 @@ def test_both_are_better_than_either(flights):
     assert rmse["fused"]["push_triggers_after_10s"] == 8
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("wrong", ["both joints", "one joint"])
 def test_a_joint_bias_under_a_steady_hand_is_found_and_not_followed(wrong, flights):
     flight = flights[wrong]

@@ -106,6 +106,7 @@ def flown():
     return of
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ROWS)
 def test_its_outcome_and_its_findings_tell_of_it_after(name, flown):
     row, flight = ROWS[name], flown(name)

@@ -78,6 +78,7 @@ def test_parameters_that_differ_from_lane_to_lane_change_no_other_lane():
     )
 
 
+@pytest.mark.thorough
 def test_a_flight_that_crashes_among_others_ends_at_its_own_step():
     missions = [tl.load_mission("iris", {**FALLS, "plant.mass_scale": scale}) for scale in (1.0, 1.1)]
     missions.append(tl.load_mission("iris", {"mission.duration": 9.0}))

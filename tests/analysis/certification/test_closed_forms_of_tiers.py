@@ -278,6 +278,7 @@ def test_a_kick_and_its_watching_fit_into_the_flight():
     assert 40.0 * (hand - (x, y + mission.person.grip)) == pytest.approx([0.02, 0.02])  # N, the pull
 
 
+@pytest.mark.thorough
 def test_an_arm_begins_with_its_pull_alone_where_the_centre_of_mass_is_not_the_payloads():
     """0.02 N along x and y on the grip, wherever the payload's centre is, and whichever way the vehicle heads."""
     odd = {"vehicle.payload.center_of_mass": [0.05, 0.2, 0.0], "initial.euler": [0.0, 0.0, 0.7]}

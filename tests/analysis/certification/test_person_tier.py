@@ -97,6 +97,7 @@ def test_an_admittance_lighter_than_its_robot_is_passive_up_to_keeminks_limit_of
         assert is_coupled_stable(FeltAdmittance(w, Y[:, None, None]), stiffness / s) is passive
 
 
+@pytest.mark.thorough
 def test_flights_in_the_hand_of_an_arm_begin_to_oscillate_at_the_predicted_stiffness():
     mission = load_mission("iris")
     predicted = stiffness_limit(felt(), mission.person.damping)

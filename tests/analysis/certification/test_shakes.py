@@ -169,6 +169,7 @@ def test_ends_are_apart_where_the_centre_of_mass_is_not_in_the_middle():
     assert ends["+y end"] - ends["-y end"] == pytest.approx(0.9 * odd.vehicle.payload.length)
 
 
+@pytest.mark.thorough
 def test_a_true_sine_flown_step_by_step_is_answered_below_the_predicted_peak_and_not_above_it():
     """Another path: `Simulation`, another lift, a sine instead of Gaussians; along x at an end, so that yaw ends it."""
     calm = {"phases.lift_start": 1.0, "phases.lift_duration": 5.0, "phases.land_start": None, "pushes": []}

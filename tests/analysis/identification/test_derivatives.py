@@ -89,6 +89,7 @@ def test_the_direction_of_a_start_is_the_difference_of_moved_ones(i):
     assert _start_direction(x, i) == pytest.approx(difference, abs=1e-8)
 
 
+@pytest.mark.thorough
 def test_derivatives_of_predictions_are_their_differences_by_starts_vehicle_and_point():
     p, x, point = predictor(), starts(), np.array([0.01, -0.02, 0.03])
     n0, P = len(flat(p.unknowns.start.vehicle)), len(p.unknowns)

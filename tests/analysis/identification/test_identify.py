@@ -90,6 +90,7 @@ def found(log):
     return tl.identify(log, START, weighed=WEIGHED, **SILENT)
 
 
+@pytest.mark.thorough
 def test_the_driven_vehicle_moves_as_mujoco_moved_it(flight, log):
     true = load_mission(START, TRUTH)
     quiet = windows_of(log.between(BEGIN, PUSH - 3.0), true, 0.5)
@@ -123,6 +124,7 @@ def test_derivatives_are_central_differences_of_predictions(log):
         assert J[:, : expected.shape[1]] == pytest.approx(expected, abs=0.02 * np.abs(expected).max() + 1e-9), u.name
 
 
+@pytest.mark.thorough
 def test_estimates_are_near_the_truth_and_within_their_intervals(found):
     truth = reference_rows(load_mission(START, TRUTH))
     rows = [row for row in (*found.rows, *found.whole) if row.excited]
@@ -158,6 +160,7 @@ def test_the_identified_mission_is_written_with_its_intervals(found, tmp_path):
     assert json.loads(data.read_text("utf-8"))["whole_vehicle"][0]["key"] == "mass"
 
 
+@pytest.mark.thorough
 def test_the_page_shows_each_estimate(found, tmp_path):
     text = write_identification(found.as_dict(), tmp_path).read_text("utf-8")
     assert all(row.key in text for row in (*found.rows, *found.whole))
@@ -165,6 +168,7 @@ def test_the_page_shows_each_estimate(found, tmp_path):
     assert axes.lines[1].get_xydata().tolist() == [[axes.get_xlim()[1], 0.0]]  # an arrow at the edge
 
 
+@pytest.mark.thorough
 def test_biases_that_walk_within_a_window_widen_the_intervals(log):
     """Steps from drawn readings spread as the covariance says; by constant biases alone it says a fifth of that."""
     drifts = {"accelerometer.drift": 0.01, "gyroscope.drift": 0.001, "joints.force_drift": 0.05}
@@ -223,6 +227,7 @@ def test_outliers_gaps_and_clocks_of_their_own_change_little(log, found):
         assert abs(again[row.key].value - row.value) < 1.5 * row.half, row.key
 
 
+@pytest.mark.thorough
 def test_gaps_of_a_stream_cost_no_more_than_their_windows(log, tmp_path):
     """The last windows, of which one is the example and two are held back, have no joints."""
     kept = dict(log.between(BEGIN, PUSH - 3.0))

@@ -68,6 +68,7 @@ def test_the_shadow_of_our_own_flight_decides_to_the_last_bit(flown, log):
     assert shadow.findings == tuple(f for f in flown.findings if f.time <= shadow.time[-1])
 
 
+@pytest.mark.thorough
 def test_it_does_so_with_slow_and_late_sensors_and_whatever_the_log_interval_of_the_shadow():
     flight = tl.fly(iris(**{"mission.duration": 6.0, **SLOW}))
     shadow = tl.shadow(log_of(flight), iris(**{"mission.log_interval": 0.01, **SLOW}))
@@ -86,6 +87,7 @@ def test_it_does_so_whatever_engine_flew_and_where_a_rotor_fails(name, engine, d
     same_bits(flight, tl.shadow(log_of(flight), mission), OF_THE_PILOT[:-1])
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("wrench", ["momentum", "fused"])
 def test_an_observer_finds_in_the_log_what_it_found_in_flight(wrench):
     """It weighs the samples by the noise that the mission tells of, not by that of the shadow's exact sensors."""

@@ -53,6 +53,7 @@ def test_a_mission_that_rounds_products_and_sums_apart_is_linearized_as_it_flies
     assert np.array_equal(NativePeriod(of.recipe)(of.made.x0), of.made.x1)
 
 
+@pytest.mark.thorough
 def test_a_sensor_period_is_composed_of_single_steps():
     of = linearized("iris", QUIET, 13.6)
     assert of.recipe.steps == 5

@@ -84,6 +84,7 @@ def test_the_gradient_of_two_seconds_is_a_central_difference(jax):
     assert by_parameters @ e == pytest.approx(float(difference), rel=1e-4), "all of them together"
 
 
+@pytest.mark.thorough
 def test_tangents_batches_and_steps_of_a_call_agree(jax):
     one, ten = step_of("hover"), step_of("hover", steps=10)
     rng, jnp = np.random.default_rng(0), jax.numpy

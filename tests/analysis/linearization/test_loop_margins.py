@@ -26,6 +26,7 @@ def loop_of(name, controller=None):
     return open_loop(load_mission(name, controller=controller))
 
 
+@pytest.mark.thorough
 def test_margins_are_those_of_python_control():
     control = pytest.importorskip("control")
     loop = loop_of("iris")
@@ -78,6 +79,7 @@ def test_a_loop_that_needs_its_gain_has_a_least_one():
     assert (found.gain, found.nearest_gain) == (np.inf, found.least_gain)
 
 
+@pytest.mark.thorough
 def test_both_limits_of_the_gain_are_told_and_which_is_near():
     rows = {r.subject: r for r in tl.check(load_mission("iris")) if r.check == "loop gain"}
     for axis, near in (("z", "most"), ("roll", "least"), ("pitch", "least"), ("yaw", "least")):
@@ -103,6 +105,7 @@ def test_offsets_of_thrusts_are_for_real_rotors_only():
         tl.linearize(load_mission("hover"), inputs=["thrust_offsets"])
 
 
+@pytest.mark.thorough
 def test_all_checks_of_a_mission_are_in_the_tables_and_well():
     results = tl.check(load_mission("iris"))
     assert {r.check for r in results} <= {check.name for check in (*CHECKS, *LOOP_CHECKS)}

@@ -14,6 +14,7 @@ SEEDS = range(6)
 PUSH = 0.1  # N, below the threshold
 
 
+@pytest.mark.thorough
 def test_a_push_is_heard_at_the_default_point_and_the_model_says_so():
     model = tl.linearize(load_mission("iris"))
     assert model.time == pytest.approx(12.5)

@@ -35,6 +35,7 @@ def shared_rows(of, count):
     return [i for i in range(count) if i >= len(names) or not names[i].startswith(("memory.allocation", "grip"))]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("which", POINTS)
 def test_the_jacobian_is_that_by_casadi(which, casadi):
     """To 1e-9 of the largest entry of a row."""

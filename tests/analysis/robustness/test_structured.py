@@ -64,6 +64,7 @@ def test_no_corner_of_the_guaranteed_box_is_unstable_when_the_mission_is_lineari
         assert not unstable(values | {"delay": math.floor(factor * 5.0) * 1e-3})
 
 
+@pytest.mark.thorough
 def test_the_guarantee_ends_where_the_search_finds_oscillation():
     proven, found, flown = (claim(f"{which}") for which in ("guaranteed factor", "factor found", "factor to fly"))
     assert 1.0 < proven.value <= found.value <= flown.value

@@ -119,6 +119,7 @@ def test_the_card_describes_every_column(folders):
             assert f"`{file.relative_to(folders[0]).as_posix()}`" in (folders[0] / "README.md").read_text()
 
 
+@pytest.mark.thorough
 def test_the_reader_has_ten_lines_and_reads(folders, capsys, monkeypatch):
     assert len(benchmark_folder.READER.splitlines()) <= 12
     monkeypatch.setattr("sys.argv", ["read.py", str(folders[0])])
@@ -145,6 +146,7 @@ def test_an_own_law_flies_in_place_of_a_built_in_one(scored):
     assert scored["own_law"]["delay (ms)"] > scored["hybrid"]["delay (ms)"]  # 12 rad/s, 20 rad/s
 
 
+@pytest.mark.thorough
 def test_an_observer_without_a_moment_no_longer_wins_and_one_that_says_nothing_is_in_the_table(scored):
     """`own_law` gives no moment. What is missed by zero is the push itself: sums over its Gaussians in the 12 s."""
     for axis in ("roll", "pitch", "yaw"):

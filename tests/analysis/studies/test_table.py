@@ -80,6 +80,7 @@ def test_by_default_the_grid_has_all_numbers_and_outcomes_and_no_texts_of_findin
     assert not names & {"findings", "events"}
 
 
+@pytest.mark.thorough
 def test_a_column_that_the_flights_of_one_file_do_not_have_is_null_there(tmp_path):
     study = {"name": "two", "missions": ["one-push", "doorway"], "draws": 2, "rows_per_chunk": 2}
     two = {"study": study, "set": {"mission.duration": 0.1}}

@@ -75,6 +75,7 @@ def test_vehicles_of_any_weight_move_alike_under_pushes_that_suit_them(model, fl
     assert np.abs(flight["push_force"]).max() / weight == pytest.approx(3.0 / (3.5 * 9.81), rel=0.01)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("model", MODELS)
 def test_shakes_that_the_check_finds_too_much_are_not_promised(model, flown):
     _, checks, _, told = flown[model]

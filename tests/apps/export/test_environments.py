@@ -30,6 +30,7 @@ def test_gymnasiums_checker_accepts_every_environment(name):
     assert env.spec.id == f"tandemlift/{name}-v0"
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", NAMES)
 def test_an_environment_alone_is_that_of_many_at_once(name):
     many, alone = gym.make_vec(f"tandemlift/{name}-v0", 3), gym.make(f"tandemlift/{name}-v0")
@@ -221,6 +222,7 @@ def test_what_cannot_be_is_refused_by_name(act, words):
         act()
 
 
+@pytest.mark.thorough
 def test_an_environment_in_single_precision_is_close_to_that_in_double_and_each_flight_the_same_alone():
     double, single, alone = (
         short("Transport", n, precision=how) for n, how in ((3, None), (3, "single"), (1, "single"))

@@ -28,6 +28,7 @@ def test_every_request_has_a_service(trial):
     assert words.startswith("tare: ")
 
 
+@pytest.mark.thorough
 def test_it_lands_lifts_and_stops_when_it_is_asked_to(trial, asked):
     assert asked("land") == (True, "land")
     for _ in range(25):

@@ -37,6 +37,7 @@ def test_mass_centre_of_mass_and_inertia_of_a_world_are_the_true_vehicles(name, 
     np.testing.assert_allclose(second, scale @ found.vehicle.inertia @ scale, rtol=1e-12, atol=1e-12)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", MISSIONS)
 def test_links_and_fixed_joints_are_where_the_parts_are(name, world):
     found = world(name)

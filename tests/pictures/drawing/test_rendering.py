@@ -124,6 +124,7 @@ def test_a_picture_is_the_same_to_the_last_byte_and_shows_the_push(flight, tmp_p
     assert not reddish(np.asarray(picture(flight, Shot(time=0.5, size=TINY, camera=camera_of("side"))))).any()
 
 
+@pytest.mark.thorough
 def test_walls_are_seen_through_and_blended_in_the_order_that_depth_peeling_finds_for_each_pixel(flight):
     walls = {"walls": [{"start": [-3.0, y], "end": [3.0, y], "top": 2.0} for y in (-1.6, 1.6)]}
     film = Film(dataclasses.replace(flight, mission=flight.mission | walls), camera_of("side"), (320, 180))

@@ -72,6 +72,7 @@ def test_the_index_stands_first_and_the_video_is_avc_of_its_size(written):
     assert data.count(b"mp4a") == 0
 
 
+@pytest.mark.thorough
 @needs_ffmpeg
 def test_a_decoder_finds_every_picture_at_its_rate_with_its_colours(flight, written):
     said = subprocess.run([video.ffmpeg(), "-i", written, "-hide_banner"], capture_output=True, text=True).stderr

@@ -208,6 +208,7 @@ def test_the_pdf_has_the_figures_tables_and_errata(pdf):
     assert {number for number, end in placed if end != ":"} == set("123456789")
 
 
+@pytest.mark.thorough
 def test_the_tables_are_written_for_spreadsheets_and_papers(folder):
     assert (
         "m_t,mass of the vehicle,3.5,kg,3.5,kg,computed from the parts,yes"

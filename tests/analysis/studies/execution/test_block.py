@@ -40,6 +40,7 @@ def assert_same_metrics(block, lane, sim):
     assert repr(mine) == repr(theirs)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("name", "kind"), CASES)
 def test_every_lane_equals_a_simulation_to_the_last_bit_through_resets_and_ends(name, kind):
     lanes, rng = 11, np.random.default_rng(1)
@@ -64,6 +65,7 @@ def test_every_lane_equals_a_simulation_to_the_last_bit_through_resets_and_ends(
     assert ended
 
 
+@pytest.mark.thorough
 def test_a_lane_begins_anew_with_another_seed_and_with_other_keys_beside_others_that_go_on():
     block = tl.Block(mission("gusts"), 9)
     sims = [tl.Simulation(mission("gusts", seed)) for seed in range(9)]

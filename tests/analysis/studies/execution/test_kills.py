@@ -53,6 +53,7 @@ def test_two_processes_on_one_folder_share_its_chunks(whole, tmp_path):
     assert_same_rows(whole, tmp_path)
 
 
+@pytest.mark.thorough
 def test_an_interrupt_leaves_what_is_done_and_no_claim(whole, tmp_path):
     process = started(LONGER, tmp_path)
     said(process, "^[1-9]")
@@ -94,6 +95,7 @@ def test_processes_and_threads_of_any_executor_give_the_same_rows(flown_twelve, 
     assert_same_rows(flown_twelve, tmp_path / "threads")
 
 
+@pytest.mark.thorough
 def test_a_study_in_processes_has_the_same_rows(flown_twelve, tmp_path):
     assert tl.study(TWELVE, tmp_path, processes=2).missing == 0
     assert_same_rows(flown_twelve, tmp_path)

@@ -27,6 +27,7 @@ def pull_and_push(page):
     pushed(page)
 
 
+@pytest.mark.thorough
 def test_a_recording_made_by_a_real_mouse_flies_again_in_python_to_the_last_bit(browser, address, tmp_path):
     page = opened(browser, address)
     until(lambda: seconds_flown(page) > 6.0, "a flight at its height")
@@ -115,6 +116,7 @@ def test_a_link_is_read_and_written_and_the_menu_flies_another_flight(browser, a
     page.close()
 
 
+@pytest.mark.thorough
 def test_an_edited_page_says_that_its_flight_is_damaged(browser, hover, tmp_path):
     text = pages.offline_html([hover._replace(sha256="0" * 64)], page_files())
     (tmp_path / "edited.html").write_text(text, "utf-8")

@@ -46,6 +46,7 @@ def test_a_vehicle_with_more_rotors_and_another_step_takes_over(session):
     assert len(session.frame()) == 4 * sum(count for _, count in fields)
 
 
+@pytest.mark.thorough
 def test_values_are_restored_to_those_of_the_file_and_a_reset_begins_it_again(session):
     say(session, "fly", mission="mine.toml", toml=MINE)
     assert session.scene["mission"] == "mine"

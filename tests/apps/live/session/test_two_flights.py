@@ -107,6 +107,7 @@ def test_settings_that_are_changed_during_a_pause_are_those_of_the_ghost(session
     np.testing.assert_array_equal(session._ghost.sample, session._flight.sample)
 
 
+@pytest.mark.thorough
 def test_a_flight_in_gazebo_has_no_ghost(session, monkeypatch):
     monkeypatch.setattr(session, "_engine", "gazebo")
     with pytest.raises(tl.InputError, match="compare: others may push the body in gazebo"):
