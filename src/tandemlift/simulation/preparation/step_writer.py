@@ -117,9 +117,9 @@ class StepWriter:
         in_block = int(self.lanes > 1)
         self.begun, self.halts = take("begun", in_block * (1 + self.words // 2)), take("halts", in_block)
 
-    def function(self, name: str, more: str = "", result: str = "void") -> Function:
+    def function(self, name: str, more: str = "", result: str = "void", attributes: str = "#1") -> Function:
         """An internal function whose arguments are the context %c, the flight, the scratch memory, and `more`."""
-        head = f"internal {result} @{name}({MEMORY}{more}) #1"
+        head = f"internal {result} @{name}({MEMORY}{more}) {attributes}"
         f = Function(self.module, self.graph, self.lanes, head, self.uniform)
         f.lines.append(f"  %dt = load double, ptr {f.at('%c', AT['dt'], 'i64')}, align 8")
         f.sets.room = lambda count: Place("%work", self.scratch.take(f"room_{self.scratch.size}", count))
