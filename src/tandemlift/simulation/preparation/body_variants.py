@@ -6,10 +6,7 @@ its time on them.
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Callable
-
-from tandemlift.compiler.tracer import LEAVES, Function, Place, Symbol, double
+from tandemlift.compiler.tracer import LEAVES, Function, Place, double
 from tandemlift.simulation.loop.sources import leaf_offset
 from tandemlift.simulation.preparation.precompute import ScratchValues
 from tandemlift.simulation.preparation.step_writer import StepWriter
