@@ -9,10 +9,9 @@ from tandemlift.core.caching import LastUsed
 from tandemlift.simulation import plan
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import LANES
-from tandemlift.simulation.preparation.compiled_flight import PARTS
 
 SHORT = {"mission.duration": 1.5, "mission.log_interval": 0.005, "phases.lift_start": 0.1}
-HEAVY, SOFT = {"plant.mass_scale": 1.1}, {"admittance.damping": 3.3}
+HEAVY, SOFT, SMOOTH = {"plant.mass_scale": 1.1}, {"admittance.damping": 3.3}, {"estimator.push_bandwidth": 30.0}
 
 
 @pytest.fixture
@@ -37,16 +36,41 @@ def code_of(flown):
     return code.loop(LANES, differ=code.parts_that_differ(starts(flown)))
 
 
+def parts_of(code):
+    """The parts of flights in which lanes of this code may differ."""
+    return {name.partition(".")[0] for name in code.about["own"]}
+
+
+def whole(flight, *parts):
+    """All values in some parts of a flight, or in all of them."""
+    values = FlightPlan(flight).loop_code.values
+    return sorted(name for name in values if not parts or name.partition(".")[0] in parts)
+
+
 def assert_as_alone(flown):
     for together, mission in zip(tl.fly_many(flown), flown, strict=True):
         assert different(together, tl.fly(mission)) == []
+
+
+def test_of_a_part_in_which_flights_differ_only_the_values_that_do_are_no_scalars(new_code):
+    flown = missions("iris", {}, HEAVY)
+    assert_as_alone(flown)
+    of_mass = {
+        "plant.body",
+        "plant.floor",
+        "plant.floor.hull",
+        "limits.strike",
+    }  # with the inverse of a mass, or forces
+    own = set(code_of(flown).about["own"])
+    assert {name for name in own if not name.startswith("sensors")} == of_mass
+    assert FlightPlan(flown[0]).loop_code.values.keys() >= own | {"plant.frame.mass", "pilot.controller"}
 
 
 @pytest.mark.parametrize("name", ["gusts", "zigzag"])
 def test_flights_of_other_seeds_alone_fly_in_a_block_with_the_bits_and_logs_of_flights_alone(name, new_code):
     flown = missions(name)
     assert_as_alone(flown)
-    assert code_of(flown).about["own"] == ["sensors"]
+    assert parts_of(code_of(flown)) == {"sensors"}
 
 
 @pytest.mark.thorough
@@ -55,7 +79,7 @@ def test_five_quadrotors_whose_sets_are_loops_do_so_too(new_code):
     places = [{**one, "position": [0.0, y, 0.075]} for y in (-1.6, -0.8, 0.0, 0.8, 1.6)]
     flown = missions("rotor-loss", **{"vehicle.quadrotors": places, "mission.duration": 0.5})
     assert_as_alone(flown)
-    assert code_of(flown).about["own"] == ["sensors"]
+    assert parts_of(code_of(flown)) == {"sensors"}
 
 
 def test_a_bit_is_a_difference_even_of_zero():
@@ -65,13 +89,18 @@ def test_a_bit_is_a_difference_even_of_zero():
     at = int(np.flatnonzero(one.numbers == 0.0)[-1])  # of the plant
     other = one._replace(numbers=one.numbers.copy())
     other.numbers[at] = -0.0
-    assert code.parts_that_differ([one, *others, other]) == {"plant"}
+    assert code.parts_that_differ([one, *others, other]) == {
+        next(name for name, places in code.values.items() if at in places)
+    }
+    assert all(name.startswith("plant.") for name in code.parts_that_differ([one, *others, other]))
 
 
 @pytest.mark.thorough
 def test_a_block_keeps_its_scalars_until_a_lane_differs_and_every_lane_flies_on_with_its_bits(new_code):
     name, lanes = "iris", 2 * LANES
-    block = tl.Block(tl.load_mission(name, SHORT), lanes)
+    flight = tl.load_mission(name, SHORT)
+    block = tl.Block(flight, lanes)
+    differ = "limits", "plant", "pilot", "finding_limits"
     sims = [tl.Simulation(tl.load_mission(name, {**SHORT, "mission.seed": i})) for i in range(lanes)]
 
     def step(steps):
@@ -88,10 +117,13 @@ def test_a_block_keeps_its_scalars_until_a_lane_differs_and_every_lane_flies_on_
     step(210)
     reset(range(lanes), HEAVY)  # all alike again
     step(150)
-    assert block._memory.code.about["own"] == ["sensors"]
+    assert parts_of(block._memory.code) == {"sensors"}
     reset([2], SOFT)
     step(250)
-    assert block._memory.code.about["own"] == sorted(PARTS)
+    assert block._memory.code.about["own"] == whole(flight, "sensors", *differ)
+    reset([9], SMOOTH)
+    step(60)
+    assert block._memory.code.about["own"] == whole(flight)
     reset([9], {})
     step(140)
     reset([1], {**HEAVY, **SOFT})

@@ -21,7 +21,7 @@ from tandemlift.compiler.machine_code import machine, store
 from tandemlift.compiler.machine_code.optimising import optimise_in_process
 from tandemlift.core.progress import Compiled, Stopped, always, publish
 
-PAYS = 2.0  # times the compile time of unoptimised code: about a third of that of optimised code
+PAYS = 0.5  # times the compile time of unoptimised code: about a sixth of that of optimised code
 LOOP = "flight loop"  # the name in notices, unless the module has another
 LOOK = 0.1  # s, between checks for Ctrl-C
 ONE_AT_A_TIME = threading.Lock()  # as LLVM does anyway; a waiting compilation can still be stopped

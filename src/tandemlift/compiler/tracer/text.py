@@ -21,6 +21,7 @@ ATTRIBUTES = [
     f"attributes #0 = {{ nounwind {WIDE} }}",
     f"attributes #1 = {{ nounwind noinline alignstack=64 {WIDE} }}",
     f"attributes #2 = {{ nounwind noinline optsize minsize alignstack=64 {WIDE} }}",
+    "attributes #3 = { nounwind noinline noimplicitfloat }",  # without vectors of neighbours
 ]
 # of a double and of a float: the distance from 1 to the next, and what rounds to whole numbers as it is added
 ROUNDING = {2.0**-52: 2.0**-23, 1.5 * 2.0**52: 1.5 * 2.0**23}

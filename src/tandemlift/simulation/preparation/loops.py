@@ -11,8 +11,8 @@ from collections.abc import Callable
 
 from tandemlift.compiler.tracer import LEAVES, Function, Place, Symbol, double
 from tandemlift.simulation.loop.external_inputs import SPAN
-from tandemlift.simulation.loop.sources import leaf_offset
 from tandemlift.simulation.preparation import precompute
+from tandemlift.simulation.preparation.body_variants import write_body
 from tandemlift.simulation.preparation.limit_solver import write_limits, write_solver
 from tandemlift.simulation.preparation.step_end import write_early, write_estimates, write_next_state, write_sample
 from tandemlift.simulation.preparation.step_writer import StepWriter
@@ -69,61 +69,6 @@ class LoopWriter(StepWriter):
         needs = self.traced.limits
         if needs is not None:
             write_limits(f, needs, self.solving, self.exact)
-
-    def step_body(self, f: Function) -> None:
-        """Move the body over the step."""
-        if not self.moves_body:
-            return self._call_body(f)
-        if not self.traced.body_in_free_air:
-            if self.graph.rolls_from or self.largest:
-                f.update("%work", self.moved, self.traced.body_in_contact)
-            elif f.orders:
-                f.same |= {self.graph.input("moved", i).node: s.node for i, s in enumerate(self.traced.body_in_contact)}
-            else:
-                f.read["moved"] = lambda i: f.value(self.traced.body_in_contact[i])  # computed where it is read
-            return
-        x, near, feet, clear, done = self.traced, *[f.fresh(name) for name in ("near", "feet", "clear", "done")]
-        self._choose_body(f, near, feet, clear)
-        bodies = {near: x.body_in_contact, feet: x.body_on_feet, clear: x.body_in_free_air}
-        for name, values in bodies.items():
-            f.lines.append(f"{name}:")
-            f.store(double(float(name == near)), "%work", self.near * self.lanes, f.real)
-            f.seldom = name == near
-            with f.scope():
-                f.update("%work", self.moved, values if name == near else values[: self.moved_touches])
-                if self.traced.rests:
-                    f.put("%work", self.moved + self.moved_end, values[self.moved_end :])
-            f.do(f"br label %{done}")
-        f.seldom = False
-        f.lines.append(f"{done}:")
-
-    def _call_body(self, f: Function) -> None:
-        """Let the machine code of a body in another engine take the step: see `engines.registry.MachineBody`."""
-        f.update("%work", self.acting, self.traced.body.acting)
-        f.update("%work", self.push, self.traced.body.push)
-        like, moved = self.templates.acting, self.moved
-        thrusts, loads = leaf_offset(like, "thrusts").at, leaf_offset(like, "wind", "loads")
-        places = self.acting + thrusts, self.acting + loads.at, self.push, moved, moved + self.moved_touches
-        given = [f.at("%work", at) for at in places]
-        given[1] = given[1] if loads.size else "null"
-        words = f.load("%work", self.machine_words, "ptr")
-        f.do(f"call void {f.load(words, 0, 'ptr')}({', '.join(f'ptr {address}' for address in (words, *given))})")
-
-    def _choose_body(self, f: Function, near: str, feet: str, clear: str) -> None:
-        """Branch to the body near walls or with all its parts near the floor, on its feet, or in free air."""
-        low = f.op(f"fcmp one {f.real} {f.load('%work', self.low * self.lanes, f.real)}, 0.0")
-        walls, lower, tipped = "false", f.fresh("lower"), f.fresh("tipped")
-        for value in f.values(self.traced.may_touch_walls):
-            walls = f.op(f"or i1 {walls}, {f.any(value)}")
-        f.do(f"br i1 {walls}, label %{near}, label %{lower}")
-        f.lines.append(f"{lower}:")
-        f.do(f"br i1 {low}, label %{tipped}, label %{clear}")
-        f.lines.append(f"{tipped}:")
-        with f.scope():
-            hull = "false"
-            for value in f.values(self.traced.may_touch_hull):
-                hull = f.op(f"or i1 {hull}, {f.any(value)}")
-            f.do(f"br i1 {hull}, label %{near}, label %{feet}")
 
     # loops
 
@@ -191,7 +136,7 @@ class LoopWriter(StepWriter):
             self.limit_thrusts(f)
             if early and x.body_in_free_air:
                 write_early(self, f, x.body.acting, done, "moved")
-            self.step_body(f)
+            write_body(self, f)
             write_sample(self, f, "%k")
             if early or self.held:
                 self._copy_state(f, final, before, "%flight")
@@ -212,7 +157,7 @@ class LoopWriter(StepWriter):
             sampling += self._pieces("limits", kept, self.limit_roots(), [*acting, *body])
             sampling += [self._piece("solving", self.limit_thrusts, kept, [*acting, *body])]
         sampling += self._pieces("acting", kept, acting, body)
-        sampling += [self._piece("body", self.step_body, kept, end)]
+        sampling += [self._piece("body", lambda g: write_body(self, g), kept, end)]
         sampling += self._pieces("end", kept, x.next_state, x.sample)
         sampling += [self._piece("sample", lambda g: write_sample(self, g, "%k"), kept, [])]
         last = self._piece("next", lambda g: write_next_state(self, g, "%k"), kept, [])
@@ -276,7 +221,7 @@ class LoopWriter(StepWriter):
     def _complete(self, f: Function, k: str, leaves_body: bool) -> None:
         if not leaves_body:
             self.limit_thrusts(f)
-            self.step_body(f)
+            write_body(self, f)
         write_sample(self, f, k)
         with f.when(f.op(f"icmp ne i64 {k}, {self.context_word(f, 'steps')}")):
             write_next_state(self, f, k)

@@ -64,8 +64,7 @@ def write_draw(step: StepWriter, name: str, draws: Sequence[int]) -> None:
     f = Function(step.module, step.graph, lanes, f"internal void @{name}({MEMORY}, i64 %k) #1", uniform)
     keys = step.context_word(f, "keys")
     if step.lanes > 1:
-        own = step.own(f, "%k")
-        f.read = {"number": lambda m: own, "key": step.key_of(f, keys).__getitem__}
+        step.bind_draw(f, keys, step.own(f, "%k"))
         for i in draws:
             for m, value in enumerate(f.values(step.traced.normals[i])):
                 f.store(value, "%work", step.noise + 4 * i + m)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterable
 
 from tandemlift.compiler.tracer import Function, Module, Place, ScratchLayout, double
@@ -117,9 +118,9 @@ class StepWriter:
         in_block = int(self.lanes > 1)
         self.begun, self.halts = take("begun", in_block * (1 + self.words // 2)), take("halts", in_block)
 
-    def function(self, name: str, more: str = "", result: str = "void") -> Function:
+    def function(self, name: str, more: str = "", result: str = "void", attributes: str = "#1") -> Function:
         """An internal function whose arguments are the context %c, the flight, the scratch memory, and `more`."""
-        head = f"internal {result} @{name}({MEMORY}{more}) #1"
+        head = f"internal {result} @{name}({MEMORY}{more}) {attributes}"
         f = Function(self.module, self.graph, self.lanes, head, self.uniform)
         f.lines.append(f"  %dt = load double, ptr {f.at('%c', AT['dt'], 'i64')}, align 8")
         f.sets.room = lambda count: Place("%work", self.scratch.take(f"room_{self.scratch.size}", count))
@@ -136,14 +137,17 @@ class StepWriter:
             result = f.op(f"call i64 @{name}_({', '.join(['ptr %c', *given])})")
         f.end(f"i64 {result}")
 
-    def key_of(self, f: Function, keys: str) -> list[str]:
-        """The two words of the key of each flight's random numbers: integers in single precision."""
+    def bind_draw(self, f: Function, keys: str, number: str) -> None:
+        """Bind step `number` and the key of each flight's random numbers in a block, as integers of 32 bits."""
         exact, whole = (f"<{self.lanes} x {kind}>" for kind in ("double", "i64"))
-        words = [f.load(keys, m, exact) for m in (0, 1)]
-        if self.real == "double":
-            return words
-        found = [f.op(f"fptosi {exact} {x} to {whole}") for x in words]
-        return [f.op(f"and {whole} {x}, splat (i64 {MASK})") for x in found]  # which tells LLVM that they have 32 bits
+        found = [f.op(f"fptosi {exact} {f.load(keys, m, exact)} to {whole}") for m in (0, 1)]
+        # the mask tells LLVM how many bits they have
+        now, *words = [f.op(f"and {whole} {x}, splat (i64 {MASK})") for x in (number, *found)]
+        f.read = {"number": lambda m: now, "key": words.__getitem__}
+        if self.real == "double":  # where the graph has the words as doubles
+            g = self.graph
+            rounded = [g.node("fptosi", (g.input("key", m).node,), "i") for m in (0, 1)]
+            f.kept |= {node: functools.partial(words.__getitem__, m) for m, node in enumerate(rounded)}
 
     def call(self, f: Function, name: str, *more: str) -> None:
         """Call another internal function."""

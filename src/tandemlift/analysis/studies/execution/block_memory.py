@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.simulation.preparation import FlightMemory, FlightStart, LeafSpan, LoopCode, TimeGrid
-from tandemlift.simulation.preparation.compiled_flight import PARTS
 from tandemlift.simulation.preparation.memory import AT, NEVER, WORDS, Numbers, Words, aligned
 
 WORTH = 2e-4  # s of flight code in a call, from which on threads share it
@@ -92,7 +91,7 @@ class BlockOfFlights:
         differ = set[str]().union(*[self._loop_code.parts_that_differ(self.blocks[b].starts) for b in self._unsure])
         self._unsure.clear()
         if not differ <= set(self.code.about["own"]):
-            self.code = self._loop_code.loop(self.width, differ=PARTS)
+            self.code = self._loop_code.loop(self.width, differ=differ)
             for memory, work in zip(self.blocks, self._scratch(), strict=True):
                 memory.use(self.code, work)
             self._find_places()
