@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 from pydantic.fields import FieldInfo
 
 from tandemlift.core.keys import description_of
-from tandemlift.missions.key_descriptions import EXTENDS, Model, bounds, compact, table_in, text_of
+from tandemlift.missions.key_descriptions import EXTENDS, PLUGINS, Model, bounds, compact, table_in, text_of
 from tandemlift.missions.mission import Mission
 from tandemlift.parts.controllers import CONTROLLERS, ControllerTable
 from tandemlift.parts.interaction.admittance import AdmittanceTable
@@ -33,6 +33,7 @@ def mission_schema() -> Schema:
         "type": "object",
         "properties": {
             "extends": {"type": "string", "description": EXTENDS.meaning, "examples": [EXTENDS.example]},
+            "plugins": {"type": "array", "description": PLUGINS.meaning, "examples": [PLUGINS.example]},
             **properties,
             "controller": _controllers(),
         },

@@ -28,6 +28,11 @@ EXTENDS = KeyDescription(
     example="paper",
 )
 
+PLUGINS = KeyDescription(
+    meaning="files in Python, relative to this file, or installed packages, that bring parts, metrics and figures",
+    example=["my.py"],
+)
+
 
 def table_in(annotation: object) -> Model | None:
     """The table inside an annotation such as `tuple[Quadrotor, ...]`."""

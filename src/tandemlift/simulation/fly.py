@@ -13,12 +13,12 @@ from typing import Any, Literal
 import numpy as np
 
 from tandemlift.core.errors import InputError
+from tandemlift.core.plugs import explained
 from tandemlift.core.progress import Stopped, always, progress_or_own
 from tandemlift.core.types import Progress, leaves, unflat
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, MissionLike, mission_of, with_precision
 from tandemlift.missions.recording import engine_of
-from tandemlift.parts.controllers.registry import explained
 from tandemlift.simulation.caller_values import count_of
 from tandemlift.simulation.flight_groups import FlightGroup, FlightGroups
 from tandemlift.simulation.loop.running_metrics import EMPTY
@@ -223,7 +223,7 @@ def refusal_of(error: Exception, mission: Mission) -> InputError:
     Raises:
         Exception: the error is another one.
     """
-    told = explained(error, mission.controller.name)
+    told = explained(error)
     if isinstance(told, InputError):
         return told
     raise error

@@ -123,7 +123,7 @@ def _selected(
 
 def fly_mission(mission: Mission, engine: str | None, file: KnownFile | None = None) -> Flight:
     """Fly a mission, which may stand in a file, with a progress bar; an error of a user's controller names its line."""
-    from tandemlift.parts.controllers.registry import explained
+    from tandemlift.core.plugs import explained
     from tandemlift.simulation.fly import fly_plan, plan_of
 
     try:
@@ -131,7 +131,7 @@ def fly_mission(mission: Mission, engine: str | None, file: KnownFile | None = N
         with progress_bar("Flying", "steps", shown=p.takes_long) as progress:
             flight, flown = fly_plan(p, progress)
     except Exception as error:
-        if (told := explained(error, mission.controller.name)) is error:
+        if (told := explained(error)) is error:
             raise
         raise told from error
     if file:
