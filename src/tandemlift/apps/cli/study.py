@@ -161,6 +161,7 @@ SCORES = ("scores.json", "scores.csv")
 @click.argument("file", required=False, type=click.Path(path_type=Path), shell_complete=names(files=[".py", ".toml"]))
 @click.option("--quick", is_flag=True, help="Few and short flights, for a first look.")
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/benchmark]")
+@flying.plugin_option
 def benchmark(file: Path | None, quick: bool, out: str | None) -> None:
     """Score your observer, controller or policy in FILE.
 
