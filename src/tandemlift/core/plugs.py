@@ -375,16 +375,15 @@ def has(kind: str, name: object) -> bool:
     return isinstance(name, str) and name in PLUGS[kind]
 
 
-def with_own(kind: str, names: Iterable[str]) -> list[str]:
-    """Names of built-in parts, and those that users have brought."""
-    return [*names, *(name for name in PLUGS[kind] if PLUGS[kind].own(name))]
-
-
 class Chosen:
     """Marks a key of missions that names a part of a kind: one of its choices, or one that a user has brought."""
 
     def __init__(self, kind: str) -> None:
         self.kind = kind
+
+    def names(self, built_in: Iterable[str]) -> list[str]:
+        """Its choices, and what users have brought."""
+        return [*built_in, *(name for name in PLUGS[self.kind] if PLUGS[self.kind].own(name))]
 
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
         as_text = core_schema.to_string_ser_schema()

@@ -51,6 +51,7 @@ MANY = 2_000  # rows; fewer are mostly flown by threads before processes have st
     shell_complete=names("metric"),
     help="Metric that the report shows. Can be repeated.",
 )
+@flying.plugin_option
 @click.option("--no-report", is_flag=True, help="Write no report.")
 @click.option("--dry-run", is_flag=True, help="Fly a few rows only, and estimate time and size of all.")
 @click.option("--template", is_flag=True, help="Print a commented study file.")
