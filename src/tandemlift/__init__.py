@@ -33,9 +33,9 @@ if TYPE_CHECKING:
     from tandemlift.codegen.known_flights import fly
     from tandemlift.codegen.mission_module import compile_mission
     from tandemlift.core.errors import FlightWarning, InputError
-    from tandemlift.core.plugs import load_plugin, plug
+    from tandemlift.core.plugs import plug
     from tandemlift.flight.record import Flight
-    from tandemlift.missions import Mission, load_mission
+    from tandemlift.missions import Mission, load_mission, load_plugin
     from tandemlift.parts.controllers.user_controller import load_controller
     from tandemlift.parts.mechanics.vehicle import Vehicle
     from tandemlift.pictures.figures.registry import plot
@@ -68,7 +68,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "linearize": "analysis.linearization.linearize",
     "load_controller": "parts.controllers.user_controller",
     "load_mission": "missions",
-    "load_plugin": "core.plugs",
+    "load_plugin": "missions",
     "load_study": "analysis.studies.table",
     "page": "apps.live.notebook_page",
     "plot": "pictures.figures.registry",

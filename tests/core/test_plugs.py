@@ -11,8 +11,8 @@ import pytest
 import tandemlift as tl
 from tandemlift.core import plugs
 from tandemlift.core.law import CHOICES, LAWS
-from tandemlift.core.plugs import PLUGS, load_plugin
-from tandemlift.missions import check, format_toml, mission_from_text, tables_of
+from tandemlift.core.plugs import PLUGS
+from tandemlift.missions import check, format_toml, load_plugin, mission_from_text, tables_of
 from tandemlift.parts.estimation.wrench.momentum import MomentumObserver
 from tandemlift.parts.estimation.wrench.observation import observe
 from tandemlift.parts.estimation.wrench.start_observer import OwnObserver

@@ -32,16 +32,7 @@ from tandemlift.core.law import CHOICES, LAWS
 from tandemlift.core.vector import dot
 
 F = TypeVar("F", bound=Callable[..., Any])
-KINDS = {
-    "controller": "tandemlift.parts.controllers.registry",
-    "observer": "tandemlift.parts.estimation.wrench.start_observer",
-    "sensor": "tandemlift.parts.sensors.sensor_registry",
-    "gate": "tandemlift.parts.interaction.admittance",
-    "engine": "tandemlift.engines.registry",
-    "metric": "tandemlift.flight.metric_descriptions",
-    "figure": "tandemlift.pictures.figures.registry",
-}
-"""Each kind of part, and the module of the built-in ones; its `taken_in` makes a part of a `Plug`, if it has one."""
+KINDS = ("controller", "observer", "sensor", "gate", "engine", "metric", "figure")
 GROUP = "tandemlift"  # of entry points
 STUDY = "<study>"  # folder of the files that came with a study
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]{0,63}")
@@ -65,12 +56,26 @@ class Plug(NamedTuple):
     table: Any = None
 
 
+def _unchanged(made: Plug) -> Plug:
+    return made
+
+
 class Registry(dict[str, Any]):
     """The parts of a kind by name, and the function that registered each."""
 
     def __init__(self, kind: str) -> None:
         super().__init__()
         self.kind, self.made_by = kind, dict[str, Any]()
+        self._take: Callable[[Plug], Any] = _unchanged
+
+    def open(self, take: Callable[[Plug], Any]) -> None:
+        """Make parts of what is registered, by the module of the kind, which may be imported after a plugin."""
+        self._take = take
+        self.update({name: take(made) for name, made in self.items() if isinstance(made, Plug)})
+
+    def take(self, made: Plug) -> None:
+        """Add what is registered."""
+        self.enter(made.name, self._take(made), made.start)
 
     def enter(self, name: str, entry: Any, made_by: Any) -> None:
         """Add a part. Registering a name again replaces the part if it comes from the same file or module.
@@ -116,8 +121,7 @@ def plug(kind: str, name: str, table: Any = None) -> Callable[[F], F]:
     def keep(part: F) -> F:
         summary = (inspect.getdoc(part) or "").partition("\n")[0]
         made = Plug(kind, name, summary, part, table)
-        take = getattr(importlib.import_module(KINDS[kind]), "taken_in", None)
-        PLUGS[kind].enter(name, take(made) if take else made, part)
+        PLUGS[kind].take(made)
         return part
 
     return keep
@@ -168,7 +172,7 @@ class Plugin(NamedTuple):
     Attributes:
         said: its name, digest and text.
         module: that it became.
-        entries: kind, name and part of all that it registered.
+        entries: kind and name of all that it registered, and the function that was.
     """
 
     said: PluginText
@@ -178,11 +182,11 @@ class Plugin(NamedTuple):
     @property
     def is_current(self) -> bool:
         """Whether all that it registered is registered still."""
-        return all(PLUGS[kind].get(name) is entry for kind, name, entry in self.entries)
+        return all(name in PLUGS[kind] and PLUGS[kind].made_by[name] is part for kind, name, part in self.entries)
 
     def parts(self, kind: str) -> list[Any]:
         """What it registered of a kind."""
-        return [entry for of, _, entry in self.entries if of == kind]
+        return [PLUGS[of][name] for of, name, _ in self.entries if of == kind]
 
 
 _loaded: dict[tuple[str, str], Plugin] = {}  # by name and digest
@@ -268,14 +272,13 @@ def run_text(text: str, path: Path, what: str = "plugin", check: Callable[[Plugi
 
 def _brought(run: Callable[[], ModuleType], said: Callable[[ModuleType], PluginText]) -> Plugin:
     """What a module registers while it runs, or has registered before."""
-    before = {kind: dict(registry) for kind, registry in PLUGS.items()}
+    before = {kind: dict(registry.made_by) for kind, registry in PLUGS.items()}
     module = run()
     entries = [
-        (kind, name, entry)
+        (kind, name, part)
         for kind, registry in PLUGS.items()
-        for name, entry in registry.items()
-        if registry.own(name)
-        and (before[kind].get(name) is not entry or registry.made_by[name].__module__ == module.__name__)
+        for name, part in registry.made_by.items()
+        if registry.own(name) and (before[kind].get(name) is not part or part.__module__ == module.__name__)
     ]
     return Plugin(said(module), module, tuple(entries))
 
@@ -406,13 +409,13 @@ def plugin_of(kind: str, name: object) -> Plugin | None:
     registry = PLUGS[kind]
     if not isinstance(name, str) or not registry.own(name):
         return None
-    made_by, entry = registry.made_by[name], registry[name]
+    made_by = registry.made_by[name]
     for held in _loaded.values():
-        if any(one is entry for _, _, one in held.entries):
+        if (kind, name, made_by) in held.entries:
             return held
     file = file_of(made_by)  # registered by a script or a notebook
     text = "".join(linecache.getlines(file))
-    own = [(k, n, r[n]) for k, r in PLUGS.items() for n in r if r.own(n) and file_of(r.made_by[n]) == file]
+    own = [(k, n, r.made_by[n]) for k, r in PLUGS.items() for n in r if r.own(n) and file_of(r.made_by[n]) == file]
     said = PluginText(Path(file).name, hashlib.sha256(text.encode()).hexdigest(), text)
     made = _loaded[said[:2]] = Plugin(said, None, tuple(own))
     return made

@@ -157,6 +157,7 @@ def taken_in(made: Plug) -> Engine:
 
 
 ENGINES: dict[str, Engine] = PLUGS["engine"]
+PLUGS["engine"].open(taken_in)
 for engine in (
     Engine("compiled", "One rigid body, Runge-Kutta of order four, compiled together with the pilot."),
     Engine(

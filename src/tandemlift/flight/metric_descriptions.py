@@ -148,3 +148,6 @@ def taken_in(made: Plug) -> Plug:
     if made.name in METRICS:
         raise InputError(f"the name {made.name!r} is taken by a metric of the package; choose another")
     return made
+
+
+PLUGS["metric"].open(taken_in)

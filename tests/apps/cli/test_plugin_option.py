@@ -36,7 +36,7 @@ def heights(flight):
     return figure
 
 
-@tl.plug("sensor", "barometer", additional("barometer", "Pa", "pressure"))
+@tl.plug("sensor", "manometer", additional("manometer", "Pa", "pressure"))
 def pressure(sensor, state, perfect):
     """Pressure over that of the ground."""
     return state.position.z * -11.8
@@ -105,7 +105,7 @@ def test_metrics_and_figures_of_a_plugin_are_in_the_results_and_the_report():
 
 
 def test_a_study_by_processes_flies_the_engine_the_sensor_and_the_metric_of_its_plugins():
-    """The engine is first order in its step of 1 ms: some hundredths of a millimetre from Runge-Kutta's after the push."""
+    """The engine is first order in its step of 1 ms: some hundredths of a millimetre from Runge-Kutta's."""
     Path("extra.py").write_text(EXTRA)
     Path("my_engine.py").write_text((ROOT / "examples" / "my_engine.py").read_text())
     Path("s.toml").write_text(
@@ -117,10 +117,10 @@ def test_a_study_by_processes_flies_the_engine_the_sensor_and_the_metric_of_its_
     assert 3e-5 < abs(table["way_m"][0] - table["way_m"][1]) < 3e-4
     assert np.array_equal(table["way_m"], table["final_position_m.0"].abs())
     sensed = {"study": {"name": "b", "missions": ["iris"], "plugins": ["extra.py"]}, "keep": {"rows": [0]}}
-    sensed["keep"]["channels"] = ["measured_barometer", "position"]
-    sensed["set"] = {"mission.duration": 12.0, "sensors.additional": [{"name": "barometer"}]}
-    (channels,) = [tl.study(sensed, f"b-{name}", **{name: 1}).flight(0) for name in ("processes",)]
-    assert channels["measured_barometer"][-1] == pytest.approx(-11.8 * channels["position"][-1, 2], abs=0.1)
+    sensed["keep"]["channels"] = ["measured_manometer", "position"]
+    sensed["set"] = {"mission.duration": 12.0, "sensors.additional": [{"name": "manometer"}]}
+    channels = tl.study(sensed, "sensed", processes=1).channels(0)
+    assert channels["measured_manometer"][-1] == pytest.approx(-11.8 * channels["position"][-1, 2], abs=0.1)
 
 
 def test_a_metric_that_fails_or_gives_no_number_is_refused_with_its_line():

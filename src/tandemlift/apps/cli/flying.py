@@ -44,7 +44,8 @@ strict_option: Callable[[Any], Any] = click.option(
 def _bring(context: click.Context, option: click.Parameter, files: tuple[str, ...]) -> None:
     """Load plugins, which all missions of the command list."""
     if files:
-        from tandemlift.core.plugs import GIVEN, load_plugin
+        from tandemlift.core.plugs import GIVEN
+        from tandemlift.missions import load_plugin
 
         GIVEN.extend(map(load_plugin, files))
         context.call_on_close(GIVEN.clear)

@@ -67,6 +67,9 @@ def file_of(controller: Controller) -> str:
     return file_of_part(controller.start)
 
 
+PLUGS["controller"].open(taken_in)
+
+
 def _checked(name: str, settings: type[ControllerTable], start: Start) -> Start:
     """Call `start`, with a clear message if its results are invalid."""
 

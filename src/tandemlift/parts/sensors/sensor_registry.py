@@ -10,12 +10,12 @@ from typing import Any, NamedTuple, TypeVar
 
 from tandemlift.core.errors import InputError
 from tandemlift.core.law import choice
-from tandemlift.core.plugs import Plug, plug
+from tandemlift.core.plugs import PLUGS, Plug, plug
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Quat, Vec3, spread
 from tandemlift.parts.mechanics.joint_loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.sensors.vehicle_sensors import ADDITIONAL, DEVICES, SENSORS, Sensor
+from tandemlift.parts.sensors.vehicle_sensors import DEVICES, SENSORS, Sensor
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -71,6 +71,9 @@ def _type_of_parameters(name: str) -> Any:
     return NamedTuple(f"Sensor_{name}", [("channels", Any), ("period", Any)])
 
 
+PLUGS["sensor"].open(taken_in)
+
+
 def _check_form(name: str) -> None:
     if not re.fullmatch(r"[a-z][a-z0-9_]{0,31}", name):
         raise InputError(f"a sensor cannot be named {name!r}: must be small letters, digits and '_', a letter first")
@@ -81,7 +84,6 @@ def _check_name(name: str, law: Callable[..., Any]) -> None:
     file = inspect.unwrap(law).__code__.co_filename
     if not linecache.getlines(file):
         raise InputError(f"sensor {name!r}: its law must be defined in a file, not in {file}")
-    held = true_value.table[PARAMETERS[name]].__code__.co_filename if name in ADDITIONAL else file
     taken = {*SENSORS, *DEVICES, *[quantity for sensor in SENSORS.values() for quantity in sensor.quantities]}
-    if name in taken or held != file:
+    if name in taken:
         raise InputError(f"a sensor cannot be named {name!r}: there is another one of that name")

@@ -40,6 +40,9 @@ def taken_in(made: Plug) -> OwnFigure:
     return OwnFigure(Caption(made.name, made.summary, made.summary), made.start)
 
 
+PLUGS["figure"].open(taken_in)
+
+
 def figures() -> dict[str, FlightFigure]:
     """All figures of flights by name: those of the paper in its order, the others, and those of users."""
     return {**_built_in(), **PLUGS["figure"]}
