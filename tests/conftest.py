@@ -17,7 +17,7 @@ from repository import SUPPORT
 
 from tandemlift.analysis.linearization.step_graph import GRAPHS
 from tandemlift.core.caching import LastUsed
-from tandemlift.parts.controllers import CONTROLLERS
+from tandemlift.core.plugs import PLUGS
 from tandemlift.simulation.plan import LOOP_CODE
 
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # of a job in the background: processes of tests would inherit it
@@ -63,11 +63,13 @@ def pytest_collection_finish():
 
 
 def forgetting_controllers():
-    """Forget afterwards the controllers that are registered meanwhile: what comes next may run in the same process."""
-    before = dict(CONTROLLERS)
+    """Forget afterwards the parts that users register meanwhile: what comes next may run in the same process."""
+    before = {kind: dict(registry) for kind, registry in PLUGS.items()}
     yield
-    CONTROLLERS.clear()
-    CONTROLLERS.update(before)
+    for kind, registry in PLUGS.items():
+        for name in [name for name in registry if registry.own(name)]:
+            del registry[name]
+        registry.update(before[kind])
 
 
 @pytest.fixture(autouse=True, scope="module")

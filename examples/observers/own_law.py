@@ -1,6 +1,7 @@
 """An observer of one's own as a law, compiled and flown: a low-pass of m (a + g e_z) − R e_z f.
 
     tandemlift benchmark examples/observers/own_law.py --quick
+    tandemlift run iris --plugin examples/observers/own_law.py --set estimator.wrench=low-pass
 
 `start` returns parameters and memory, by whose types `observe` picks the law. A law chooses by
 `where`, never by `if`; docs/reference/controllers.md has the rules. The force is in world axes, the
@@ -9,6 +10,7 @@ moment in body axes; the pilot takes the tare away.
 
 from typing import NamedTuple
 
+from tandemlift.core.plugs import plug
 from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.parts.estimation.wrench.observation import (
     ExternalWrench,
@@ -17,7 +19,6 @@ from tandemlift.parts.estimation.wrench.observation import (
     observe,
     unexplained_force,
 )
-from tandemlift.parts.estimation.wrench.start_observer import OwnObserver
 
 
 class Filter(NamedTuple):
@@ -40,9 +41,7 @@ def low_pass(k: Filter, m: Memory, x: Observation) -> tuple[ExternalWrench, Memo
     return ExternalWrench(force, ZERO), Memory(force)
 
 
-def start(body, noise, interval):
-    """12 rad/s, whatever the noise."""
+@plug("observer", "low-pass")
+def start(table, body, noise, interval):
+    """A low-pass of 12 rad/s, whatever the noise."""
     return Filter(body, 12.0 * interval), Memory(ZERO)
-
-
-observer = OwnObserver(start)

@@ -33,8 +33,9 @@ if TYPE_CHECKING:
     from tandemlift.codegen.known_flights import fly
     from tandemlift.codegen.mission_module import compile_mission
     from tandemlift.core.errors import FlightWarning, InputError
+    from tandemlift.core.plugs import plug
     from tandemlift.flight.record import Flight
-    from tandemlift.missions import Mission, load_mission
+    from tandemlift.missions import Mission, load_mission, load_plugin
     from tandemlift.parts.controllers.user_controller import load_controller
     from tandemlift.parts.mechanics.vehicle import Vehicle
     from tandemlift.pictures.figures.registry import plot
@@ -67,9 +68,11 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "linearize": "analysis.linearization.linearize",
     "load_controller": "parts.controllers.user_controller",
     "load_mission": "missions",
+    "load_plugin": "missions",
     "load_study": "analysis.studies.table",
     "page": "apps.live.notebook_page",
     "plot": "pictures.figures.registry",
+    "plug": "core.plugs",
     "read_log": "apps.export.logs",
     "register_environments": "apps.export.registration",
     "shadow": "analysis.identification.shadow",
@@ -103,9 +106,11 @@ __all__ = [
     "linearize",
     "load_controller",
     "load_mission",
+    "load_plugin",
     "load_study",
     "page",
     "plot",
+    "plug",
     "read_log",
     "register_environments",
     "shadow",

@@ -84,13 +84,17 @@ def _smooth(kind, F):
 ADMITTANCE = "class Admittance(NamedTuple):"
 ANCHORED = "@elementwise\ndef anchored"
 CHOICE = '"hard": "'
+CHECKS = "def gate_checks("
 LAW: Edits = {
     "parts/interaction/admittance.py": [
         (ADMITTANCE, GATE + ADMITTANCE),
         (ANCHORED, SMOOTH + ANCHORED),
-        ('gate: Literal["hard", "soft"]', 'gate: Literal["hard", "soft", "smooth"]'),
+        ('Literal["hard", "soft"]', 'Literal["hard", "soft", "smooth"]'),
         (CHOICE, '"smooth": "F³/(F² + threshold²)", ' + CHOICE),
-        ("else HardGate", 'else SmoothGate if a.gate == "smooth" else HardGate'),
+        (
+            CHECKS,
+            '@plug("gate", "smooth")\ndef _start_smooth(a):\n    return SmoothGate(vec3(a.threshold))\n\n\n' + CHECKS,
+        ),
     ],
 }
 LAW_FLIES = """
@@ -255,12 +259,12 @@ LOADER = """def _point() -> Make:
 
 
 class Engine(NamedTuple):"""
-ENTRY = "        Engine(\n"
+ENTRY = "    Engine(\n"
 ENGINE: Edits = {
     "engines/point.py": [("", BODY)],
     "engines/registry.py": [
         ("class Engine(NamedTuple):", LOADER),
-        (ENTRY, '        Engine("point", "A point mass.", _point),\n' + ENTRY),
+        (ENTRY, '    Engine("point", "A point mass.", _point),\n' + ENTRY),
     ],
 }
 ENGINE_FLIES = """

@@ -12,8 +12,8 @@ from repository import ROOT
 EXAMPLES, PAGES = ROOT / "examples", ROOT / "docs" / "tutorials"
 ELSEWHERE = {"gazebo", "ros"}  # of a shell, executed by `make test-gazebo`
 NAMES = sorted({path.stem for path in PAGES.glob("*.md")} - {"index"} - ELSEWHERE)
-OWN = "my_controller.py"  # which a tutorial has its reader write
-FOUND = f'str(Path(__file__).with_name("{OWN}"))'  # so that an example finds it from any folder
+OWN = {path.name: path.read_text("utf-8") for path in EXAMPLES.glob("my_*.py")}  # which tutorials have readers write
+FOUND = re.compile(r'str\(Path\(__file__\)\.with_name\(("my_\w+\.py")\)\)')  # so that it is found from any folder
 CELL = re.compile(r"^```\{code-cell\} ipython3\n((?::[^\n]*\n)*)(.*?)^```", flags=re.M | re.S)
 MOST = 40  # lines of an example
 
@@ -33,13 +33,13 @@ def code_of_script(page):
     """The lines of the example, but its docstring, blank lines, and where a figure goes, which a notebook shows."""
     text = (EXAMPLES / f"{page.replace('-', '_')}.py").read_text("utf-8")
     body = text.partition('"""\n\n')[2]
-    if FOUND in body:
-        body = body.replace(FOUND, f'"{OWN}"').replace("from pathlib import Path\n", "")
+    if FOUND.search(body):
+        body = FOUND.sub(r"\1", body).replace("from pathlib import Path\n", "")
     return [line for line in body.splitlines() if line and not line.startswith("figure.savefig(")]
 
 
 def test_there_is_a_tutorial_of_each_example_and_an_example_of_each_tutorial():
-    scripts = sorted(path.stem.replace("_", "-") for path in EXAMPLES.glob("*.py") if path.name != OWN)
+    scripts = sorted(path.stem.replace("_", "-") for path in EXAMPLES.glob("*.py") if path.name not in OWN)
     assert scripts == NAMES
 
 
@@ -48,9 +48,9 @@ def test_the_cells_of_a_tutorial_are_the_example_of_its_name(page):
     assert code_of_page(page) == code_of_script(page)
 
 
-def test_the_controller_that_a_tutorial_writes_is_the_one_of_the_examples():
-    written = [text for name in NAMES for _, text in cells(name) if text.startswith(f"%%writefile {OWN}\n")]
-    assert [text.partition("\n")[2] for text in written] == [(EXAMPLES / OWN).read_text("utf-8")]
+def test_the_files_that_a_tutorial_writes_are_those_of_the_examples():
+    written = [text.partition("\n") for name in NAMES for _, text in cells(name) if text.startswith("%%writefile ")]
+    assert {line.removeprefix("%%writefile "): text for line, _, text in written} == OWN
 
 
 def test_examples_are_short():

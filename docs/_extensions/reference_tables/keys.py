@@ -5,14 +5,22 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from tandemlift.core.errors import shown
-from tandemlift.missions.key_descriptions import EXTENDS, Key, Section, default_words, is_of_the_package, sections
+from tandemlift.missions.key_descriptions import (
+    EXTENDS,
+    PLUGINS,
+    Key,
+    Section,
+    default_words,
+    is_of_the_package,
+    sections,
+)
 
 TABLE_HEAD = "| key | unit | default | meaning |\n|---|---|---|---|"
 
 
 def key_tables() -> str:
     """A section with a table of keys for each table of a mission."""
-    extends = f"`extends` (before all tables): {EXTENDS.meaning}.\n"
+    extends = f"`extends` (before all tables): {EXTENDS.meaning}.\n\n`plugins` (there, too): {PLUGINS.meaning}.\n"
     ours = (section for section in sections() if is_of_the_package(section.controller))
     return extends + "".join(_section(section) for section in ours)
 

@@ -106,7 +106,7 @@ class KnownFile:
         from tandemlift.missions.loading import layers_of, path_of
 
         mission = p.mission
-        reads = mission.person.recording is not None or mission.vehicle.payload.mesh is not None
+        reads = bool(mission.plugins or mission.person.recording or mission.vehicle.payload.mesh)
         alone = p.engine == "compiled" and not (p.stepwise or p.single or reads or flown.lost)
         if not self._key or not alone or FlightWarning.count != self._warnings or not store.hash_of_sources():
             return

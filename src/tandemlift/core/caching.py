@@ -21,6 +21,7 @@ Made = TypeVar("Made")
 KEPT = 64  # results of a function
 PLAIN = {float, int, bool, str, tuple, type(None)}
 
+_HELD: list[Callable[[], object]] = []  # that clear the results of each function
 _TRACE: ContextVar[dict[Any, Any] | None] = ContextVar("trace", default=None)
 
 
@@ -33,6 +34,7 @@ def cached(function: F) -> F:
     """
     same = OrderedDict[Any, Any]()
     equal = functools.lru_cache(maxsize=KEPT)(lambda said: function(*said.args))
+    _HELD.extend((same.clear, equal.cache_clear))
 
     @functools.wraps(function)
     def call(*args: Any) -> Any:
@@ -47,10 +49,16 @@ def cached(function: F) -> F:
         if found is None:
             found = same[key] = equal(_Said(args)), args
             if len(same) > KEPT:
-                same.popitem(last=False)
+                same.pop(next(iter(same), None), None)  # another thread may have made it empty
         return found[0]
 
     return call  # type: ignore[return-value]
+
+
+def forget() -> None:
+    """Forget all results: a name now stands for another part, which has been loaded anew."""
+    for clear in _HELD:
+        clear()
 
 
 class LastUsed(OrderedDict[Any, Made]):

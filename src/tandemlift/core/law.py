@@ -13,13 +13,15 @@ import functools
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple, TypeVar, overload
 
+from tandemlift.core.errors import InputError
 from tandemlift.core.types import new
 
 F = TypeVar("F", bound=Callable[..., Any])
 
 LAWS: list[Callable[..., Any]] = []
+CHOICES: list[Choice] = []
 STAIRCASES: list[Callable[..., Any]] = []  # laws that round, with the derivative of a straight line
-REPLACED: list[tuple[Choice, type, Callable[..., Any]]] = []  # in place of another law, or of another package
+REPLACED: list[tuple[Choice, type, Callable[..., Any]]] = []  # in place of another law of the same module
 
 
 class Elementwise:
@@ -80,6 +82,7 @@ class Choice:
         self.signature = signature
         self.table: dict[type, Callable[..., Any]] = {}
         self.interpreted: set[type] = set()
+        CHOICES.append(self)
         functools.update_wrapper(self, signature)
 
     def __call__(self, *args: Any) -> Any:
@@ -97,10 +100,23 @@ class Choice:
             ) from None
 
     def register(self, kind: type, *, compiled: bool = True) -> Callable[[F], F]:
-        """Register a law for first arguments of type `kind`; `compiled=False` for any Python function instead."""
+        """Register a law for first arguments of type `kind`; `compiled=False` for any Python function instead.
+
+        Raises:
+            InputError: `kind` has a law of another module already, or is a type of the package that has none.
+        """
 
         def keep(function: F) -> F:
-            if kind in self.table or _package(self) == _package(kind) != _package(function):
+            held = self.table.get(kind)
+            if _package(self) == _package(kind) != _package(function) or (held and not _in_one_module(held, function)):
+                code, home = function.__code__, getattr(held or kind, "__module__", "elsewhere")
+                where = f"{code.co_filename.rpartition('/')[2]}, line {code.co_firstlineno}"
+                raise InputError(
+                    f"{where}: {self.signature.__name__}() of a {kind.__name__} is a matter of {home}, by which others "
+                    "fly, too; register a type of your own, and choose it by a name with @plug "
+                    "(docs/tutorials/bring-your-own-parts.md)"
+                )
+            if held:
                 REPLACED.append((self, kind, function))
             self.table[kind] = law(function) if compiled else function
             self.interpreted.discard(kind) if compiled else self.interpreted.add(kind)
@@ -110,8 +126,12 @@ class Choice:
 
 
 def replaced() -> tuple[tuple[type, Callable[..., Any]], ...]:
-    """Classes with a law in place of another one, or from another package than class and choice, and that law."""
+    """Classes with a law in place of an earlier one of the same module, and that law."""
     return tuple((kind, function) for choice, kind, function in REPLACED if choice.table.get(kind) is function)
+
+
+def _in_one_module(held: Any, new: Any) -> bool:
+    return held.__module__ == new.__module__ or _package(held) == _package(new) == _package(Choice)
 
 
 def _package(made: Any) -> str:

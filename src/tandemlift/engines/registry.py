@@ -10,7 +10,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol, runtime_checkable
 
-from tandemlift.core.errors import unknown
+from tandemlift.core.errors import InputError, unknown
+from tandemlift.core.plugs import PLUGS, Plug, has
 from tandemlift.core.types import Array
 from tandemlift.engines.models.scene import Scene
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -129,7 +130,7 @@ class Engine(NamedTuple):
     Attributes:
         name: of the engine.
         summary: of it.
-        load: imports the class of its body; None for the compiled engine.
+        load: imports the class of its body, or the function that makes it; None for the compiled engine.
         pushable: whether the body may be pushed outside of the flight's loop, and is a `PushedBody`.
     """
 
@@ -148,29 +149,36 @@ class Engine(NamedTuple):
         return self.load()(scene, vehicle, floor, walls)
 
 
-ENGINES = {
-    e.name: e
-    for e in [
-        Engine("compiled", "One rigid body, Runge-Kutta of order four, compiled together with the pilot."),
-        Engine(
-            "mujoco",
-            "Separate bodies welded together in MuJoCo, with its own sensors and contact (extra: mujoco).",
-            _mujoco,
-        ),
-        Engine(
-            "gazebo",
-            "Separate bodies on fixed joints in Gazebo 11 (ODE), driven over UDP (docs/how-to/gazebo.md).",
-            _gazebo,
-            pushable=True,
-        ),
-        Engine(
-            "gazebo-ros",
-            "The same, driven over topics of ROS 1 (docs/how-to/gazebo.md#over-ros).",
-            _gazebo_over_ros,
-            pushable=True,
-        ),
-    ]
-}
+def taken_in(made: Plug) -> Engine:
+    """The engine of a function (scene, vehicle, floor, walls) or class that makes an `EngineBody`."""
+    if not callable(made.start):
+        raise InputError(f"engine {made.name!r}: must be a function or class (scene, vehicle, floor, walls)")
+    return Engine(made.name, made.summary, lambda: made.start)
+
+
+ENGINES: dict[str, Engine] = PLUGS["engine"]
+PLUGS["engine"].open(taken_in)
+for engine in (
+    Engine("compiled", "One rigid body, Runge-Kutta of order four, compiled together with the pilot."),
+    Engine(
+        "mujoco",
+        "Separate bodies welded together in MuJoCo, with its own sensors and contact (extra: mujoco).",
+        _mujoco,
+    ),
+    Engine(
+        "gazebo",
+        "Separate bodies on fixed joints in Gazebo 11 (ODE), driven over UDP (docs/how-to/gazebo.md).",
+        _gazebo,
+        pushable=True,
+    ),
+    Engine(
+        "gazebo-ros",
+        "The same, driven over topics of ROS 1 (docs/how-to/gazebo.md#over-ros).",
+        _gazebo_over_ros,
+        pushable=True,
+    ),
+):
+    PLUGS["engine"].enter(engine.name, engine, Engine)
 
 
 def engine_named(name: str) -> Engine:
@@ -179,6 +187,6 @@ def engine_named(name: str) -> Engine:
     Raises:
         InputError: there is no such engine.
     """
-    if name not in ENGINES:
+    if not has("engine", name):
         raise unknown("engine", name, ENGINES)
     return ENGINES[name]

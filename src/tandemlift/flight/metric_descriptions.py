@@ -10,6 +10,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from tandemlift.core.errors import InputError
+from tandemlift.core.plugs import PLUGS, Plug
+
 AXES = ("x", "y", "z")
 ANGLES = ("roll", "pitch", "yaw")
 INPUTS = ("U1", "U2", "U3", "U4")
@@ -135,5 +138,16 @@ METRICS: dict[str, Metric] = {name: metric for group in METRIC_GROUPS for name, 
 
 
 def metric_of(name: str) -> Metric:
-    """The description of a metric; an empty one for a metric that this version does not have."""
-    return METRICS.get(name, Metric("", ""))
+    """The description of a metric, which a user may have brought; an empty one for one that is not known here."""
+    own = PLUGS["metric"].get(name)
+    return Metric("1", own.summary) if own else METRICS.get(name, Metric("", ""))
+
+
+def taken_in(made: Plug) -> Plug:
+    """A metric of a user: a function of a `Flight` that gives a number, a list of them, or None."""
+    if made.name in METRICS:
+        raise InputError(f"the name {made.name!r} is taken by a metric of the package; choose another")
+    return made
+
+
+PLUGS["metric"].open(taken_in)

@@ -6,6 +6,7 @@ else is replaced, and another `controller.name` starts from that controller's de
 A function that needs a part of a mission takes that table, or `Mission.hover`: their types are here, too.
 """
 
+from tandemlift.core.plugs import load_plugin
 from tandemlift.missions.changes import format_toml, merge, tables_of
 from tandemlift.missions.checking import changed, check
 from tandemlift.missions.keys.acting import IdleKey, idle_keys, sentences
@@ -48,6 +49,7 @@ __all__ = [
     "format_toml",
     "idle_keys",
     "load_mission",
+    "load_plugin",
     "merge",
     "mission_from_text",
     "mission_of",

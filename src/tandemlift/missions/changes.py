@@ -140,7 +140,8 @@ def merge(base: Tables, changes: Tables) -> Tables:
 
 def tables_of(mission: Mission) -> Tables:
     """The mission as nested tables of plain values, all keys resolved; keys that are not set are left out."""
-    return mission.model_dump(mode="json", exclude_none=True)
+    plugins = {"plugins": [one._asdict() for one in mission.plugins]} if mission.plugins else {}
+    return {**plugins, **mission.model_dump(mode="json", exclude_none=True)}
 
 
 def format_toml(tables: Mapping[str, Any]) -> str:

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 from pydantic import BaseModel, ValidationError
 
 from tandemlift.core.errors import FlightWarning, InputError, accepted, shown, suggestion, without_flight_warnings
+from tandemlift.core.plugs import GIVEN, Plugin, has, listed, plugin_of
 from tandemlift.missions.changes import MISSING, Place, Tables, changed_tables, tables_of, value_at
 from tandemlift.missions.checks import mission_checks, refusals
 from tandemlift.missions.keys.acting import idle_as_said
@@ -90,8 +91,9 @@ def check(
 def _mission_of(tables: Tables, known: Checked | None) -> tuple[Any, list[Problem]]:
     """The mission of tables with valid keys and types, or the problems of the tables."""
     checked, problems = dict(tables), list[Problem]()
+    brought = _plugins(checked.pop("plugins", ()))  # first: they may bring what the tables name
     if known is not None:
-        checked = {key: _reused(tables[key], known, key) for key in tables}
+        checked = {key: _reused(tables[key], known, key) for key in checked}
     if isinstance(checked.get("controller"), dict):
         checked["controller"], problems = _controller(checked["controller"], tables)
     payload = value_at(checked, ("vehicle", "payload"))
@@ -101,7 +103,25 @@ def _mission_of(tables: Tables, known: Checked | None) -> tuple[Any, list[Proble
         except InputError as error:
             return None, [*problems, Problem(("vehicle", "payload", "mesh"), f"vehicle.payload.{error}")]
     mission, more = _validated(Mission, checked, tables, ())
-    return mission, problems + more
+    return mission and _with_plugins(mission, brought), problems + more
+
+
+def _plugins(said: object) -> list[Plugin]:
+    """The plugins that tables list, and those of the command that runs."""
+    if not isinstance(said, (list, tuple)):
+        raise InputError(f'plugins = {shown(said)}: must be a list of files, such as ["my.py"]')
+    return [*map(listed, said), *GIVEN]
+
+
+def _with_plugins(mission: Mission, brought: Sequence[Plugin]) -> Mission:
+    """A mission that lists plugins, and those that bring what it names."""
+    switched = [(c.key, c.value) for c in mission.changes]
+    kinds = {"controller.name": "controller", "admittance.gate": "gate", "estimator.wrench": "observer"}
+    named: list[tuple[str, object]] = [("controller", mission.controller.name), ("observer", mission.estimator.wrench)]
+    named += [("gate", mission.admittance.gate), *(("sensor", s.name) for s in mission.sensors.additional)]
+    named += [(kinds[key], value) for key, value in switched if key in kinds]
+    found = [*brought, *(one for kind, name in named if (one := plugin_of(kind, name)))]
+    return mission.with_plugins(one.said for one in found) if found else mission
 
 
 def _reused(new: object, known: Checked, key: str) -> object:
@@ -149,7 +169,7 @@ def _controller(table: Tables, tables: Tables) -> tuple[ControllerTable, list[Pr
     if not isinstance(name, str):
         given = "is missing: it" if name is None else f"= {shown(name)}:"
         return stand_in, [Problem(place, f"controller.name {given} must be the name of a controller, in quotes")]
-    if name not in CONTROLLERS:
+    if not has("controller", name):
         hint = f"{suggestion(name, CONTROLLERS)} One of your own must be loaded first, as with --controller FILE."
         sentence = f"unknown controller; there are {', '.join(sorted(CONTROLLERS))}.{hint}"
         return stand_in, [Problem(place, f"controller.name = {shown(name)}: {sentence}")]

@@ -13,7 +13,8 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 from pydantic.fields import FieldInfo
 
 from tandemlift.core.keys import description_of
-from tandemlift.missions.key_descriptions import EXTENDS, Model, bounds, compact, table_in, text_of
+from tandemlift.core.plugs import Chosen
+from tandemlift.missions.key_descriptions import EXTENDS, PLUGINS, Model, bounds, compact, table_in, text_of
 from tandemlift.missions.mission import Mission
 from tandemlift.parts.controllers import CONTROLLERS, ControllerTable
 from tandemlift.parts.interaction.admittance import AdmittanceTable
@@ -33,6 +34,7 @@ def mission_schema() -> Schema:
         "type": "object",
         "properties": {
             "extends": {"type": "string", "description": EXTENDS.meaning, "examples": [EXTENDS.example]},
+            "plugins": {"type": "array", "description": PLUGINS.meaning, "examples": [PLUGINS.example]},
             **properties,
             "controller": _controllers(),
         },
@@ -92,7 +94,8 @@ def _leaf(annotation: object, marks: Iterable[Any] = ()) -> Schema:
     if kind is Annotated:
         return _leaf(parts[0], (*parts[1:], *marks))
     if kind is Literal:
-        return {"enum": parts}
+        chosen = next((mark for mark in marks if isinstance(mark, Chosen)), None)
+        return {"enum": chosen.names(parts) if chosen else parts}
     if kind in (Union, types.UnionType):
         forms = [_leaf(part, marks) for part in parts]
         return forms[0] if len(forms) == 1 else {"anyOf": forms}

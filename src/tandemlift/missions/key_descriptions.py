@@ -16,6 +16,7 @@ from pydantic.fields import FieldInfo
 
 from tandemlift.core.errors import shown, written
 from tandemlift.core.keys import KeyDescription, description_of
+from tandemlift.core.plugs import Chosen
 from tandemlift.missions.mission import Mission
 from tandemlift.parts.controllers import CONTROLLERS, CascadeTable, ControllerTable
 
@@ -26,6 +27,11 @@ PAPER = "nftsmc"  # whose keys stand for `[controller]` in the template
 EXTENDS = KeyDescription(
     meaning="start from this mission and write only what differs: a built-in name, or a path relative to this file",
     example="paper",
+)
+
+PLUGINS = KeyDescription(
+    meaning="files in Python, relative to this file, or installed packages, that bring parts, metrics and figures",
+    example=["my.py"],
 )
 
 
@@ -42,7 +48,8 @@ def allowed(annotation: object, marks: Iterable[Any] = ()) -> str:
     if kind is Annotated:
         return allowed(parts[0], (*parts[1:], *marks))
     if kind is Literal:
-        *others, last = map(shown, parts)
+        chosen = next((mark for mark in marks if isinstance(mark, Chosen)), None)
+        *others, last = map(shown, chosen.names(parts) if chosen else parts)
         return f"{', '.join(others)} or {last}" if others else last
     if kind in (Union, types.UnionType):
         return " or ".join(dict.fromkeys(allowed(part, marks) for part in parts))

@@ -13,6 +13,7 @@ from typing import Any
 
 from tandemlift.core.errors import InputError, shown, suggestion, unknown
 from tandemlift.core.files import DATA, toml_tables
+from tandemlift.core.plugs import listed
 from tandemlift.missions.changes import (
     MISSING,
     Tables,
@@ -84,6 +85,8 @@ def _tables_in(content: bytes, path: Path | str) -> Tables:
 def overlay(base: Tables, changes: Tables) -> Tables:
     """Merge missions; the settings of another controller, and the sizes of another payload, are not kept."""
     base = without_old_shape(base, changes)
+    if "plugins" in base and "plugins" in changes:
+        changes = {**changes, "plugins": [*base["plugins"], *changes["plugins"]]}
     name = value_at(changes, ("controller", "name"))
     if name not in (MISSING, value_at(base, ("controller", "name"))):
         base = {key: value for key, value in base.items() if key != "controller"}
@@ -127,7 +130,15 @@ def _anchored(tables: Tables, folder: Path) -> Tables:
         if isinstance(path, str):
             found: Tables = {name: str((folder / path).resolve())}
             tables = merge(tables, functools.reduce(lambda inner, key: {key: inner}, above[::-1], found))
+    said = tables.get("plugins")
+    if isinstance(said, list):  # now, as the name of a controller may be of one
+        tables = {**tables, "plugins": [listed(placed(one, folder)).said._asdict() for one in said]}
     return tables
+
+
+def placed(plugin: object, folder: Path) -> object:
+    """An entry of `plugins`, with the path of a file resolved from the folder of the mission's file."""
+    return str(folder / plugin) if isinstance(plugin, str) and plugin.endswith(".py") else plugin
 
 
 def _last_said_of(controller: str, folded: Sequence[Tables]) -> object:
@@ -175,6 +186,8 @@ def mission_from_text(name: str, text: str) -> Mission:
             raise InputError(f"{name}: extends = {shown(parent)}: {allowed}")
         if value_at(tables, ("person", "recording")) not in (MISSING, ""):
             raise InputError(f"{name}: person.recording: must be left out, as the file is read alone")
+        if any(isinstance(one, str) for one in tables.get("plugins", ())):
+            raise InputError(f"{name}: plugins: must be left out, as the file is read alone")
         layers = [*(layers_of(path_of(parent, Path())) if parent else ()), Layer(name, tables)]
         *_, folded = itertools.accumulate(layers, _laid_over, initial=Tables())
         return check(folded, name, layers)

@@ -7,14 +7,15 @@ takes one number for all axes or one number each. The built-in missions in `data
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field, SerializeAsAny, ValidationError, model_validator
+from pydantic import AfterValidator, Field, PrivateAttr, SerializeAsAny, ValidationError, model_validator
 
 from tandemlift.core.errors import InputError
 from tandemlift.core.keys import NonNegative, Positive, Table, divisor, key, must
+from tandemlift.core.plugs import PluginText
 from tandemlift.missions.outcomes import CrashTable, FindingsTable, OutcomeTable, PromiseTable
 from tandemlift.parts.contact.corridor import CorridorTable, WallTable, nearest_wall
 from tandemlift.parts.contact.standing import GroundTable
@@ -130,8 +131,12 @@ class ChangeTable(Table):
 
 
 class Mission(Table):
-    """All data that a flight depends on; see `tandemlift.missions` for loading one."""
+    """All data that a flight depends on; see `tandemlift.missions` for loading one.
 
+    `plugins`, before its tables, bring parts that it names, or metrics and figures.
+    """
+
+    _plugins: tuple[PluginText, ...] = PrivateAttr(())
     mission: MissionTable
     vehicle: VehicleTable
     controller: SerializeAsAny[ControllerTable]
@@ -170,6 +175,17 @@ class Mission(Table):
     @classmethod
     def _by_feel(cls, data: Any) -> Any:
         return with_feel(data) if isinstance(data, dict) else data
+
+    @property
+    def plugins(self) -> tuple[PluginText, ...]:
+        """Its plugins."""
+        return self._plugins
+
+    def with_plugins(self, plugins: Iterable[PluginText]) -> Mission:
+        """It with more plugins."""
+        made, listed = self.model_copy(), dict.fromkeys((*self._plugins, *plugins))
+        made._plugins = tuple(listed)
+        return made
 
     @property
     def all_walls(self) -> tuple[WallTable, ...]:
@@ -250,7 +266,7 @@ def check_keys(tables: Mapping[str, Any]) -> None:
         InputError: with the dotted key.
     """
     try:
-        Mission.model_validate(tables)
+        Mission.model_validate({name: table for name, table in tables.items() if name != "plugins"})
     except ValidationError as error:
         for problem in error.errors(include_url=False, include_input=False):
             if problem["type"] == "extra_forbidden" and problem["loc"][0] != "controller":

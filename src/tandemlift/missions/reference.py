@@ -12,7 +12,7 @@ from typing import Any
 
 from tandemlift.core.errors import InputError, shown, written
 from tandemlift.core.files import parts_of
-from tandemlift.missions.key_descriptions import EXTENDS, PAPER, Key, Section, default_words, sections
+from tandemlift.missions.key_descriptions import EXTENDS, PAPER, PLUGINS, Key, Section, default_words, sections
 from tandemlift.missions.keys.renamed import present_name
 
 NEAREST = 3
@@ -29,8 +29,9 @@ def explained(name: str, controller: str = "") -> str:
         InputError: there is none of that name, and the message names the three nearest; or it has too many parts.
     """
     plain = plain_name(name)
-    if plain == "extends":
-        return f"extends: {EXTENDS.meaning}."
+    for name, facts in {"extends": EXTENDS, "plugins": PLUGINS}.items():
+        if plain == name:
+            return f"{name}: {facts.meaning}."
     found = [(section, key) for section in sections() for key in section.keys if plain_name(key.name) == plain]
     if found:
         return "\n".join(_keys(found))

@@ -13,6 +13,7 @@ from pydantic_core import ErrorDetails
 from tandemlift.core.errors import dotted, nearest, shown
 from tandemlift.core.files import QUANTITY
 from tandemlift.core.keys import description_of, is_number
+from tandemlift.core.plugs import Chosen
 from tandemlift.missions.changes import MISSING, Place, value_at
 from tandemlift.missions.key_descriptions import Model, allowed, plain, table_in
 from tandemlift.missions.keys.renamed import present_name
@@ -106,7 +107,16 @@ def _hint(problem: ErrorDetails, field: Any, given: object) -> str:
         options = get_args(plain(field.annotation))
         options = get_args(options[0]) or options  # of an entry of a list
         near = nearest(given, map(str, options))
-        return f". Did you mean {shown(near)}?" if near else ""
+        own = [
+            mark
+            for mark in (
+                *field.metadata,
+                *(mark for part in get_args(field.annotation) for mark in getattr(part, "__metadata__", ())),
+            )
+            if isinstance(mark, Chosen)
+        ]
+        load = " One of your own must be loaded first, as with --plugin FILE." if own else ""
+        return (f". Did you mean {shown(near)}?" if near else "." * bool(own)) + load
     if isinstance(given, str) and kind.startswith(("float_", "int_", "axes")):
         if quantity := re.fullmatch(QUANTITY, given):
             unit = (field and description_of(field).unit) or "1"

@@ -13,19 +13,19 @@ from typing import Any, Literal
 import numpy as np
 
 from tandemlift.core.errors import InputError
+from tandemlift.core.plugs import explained
 from tandemlift.core.progress import Stopped, always, progress_or_own
 from tandemlift.core.types import Progress, leaves, unflat
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, MissionLike, mission_of, with_precision
 from tandemlift.missions.recording import engine_of
-from tandemlift.parts.controllers.registry import explained
 from tandemlift.simulation.caller_values import count_of
 from tandemlift.simulation.flight_groups import FlightGroup, FlightGroups
 from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import FlightMemory, machine_of
 from tandemlift.simulation.preparation.memory import Numbers
-from tandemlift.simulation.results import RawResult, flight_of, metrics_of, take_metrics
+from tandemlift.simulation.results import RawResult, flight_of, metrics_of, own_metrics, take_metrics
 from tandemlift.simulation.stepping import body_of, fly_stepwise
 
 STRETCH = 0.1  # s of flight code between updates of the progress bar and checks for Ctrl-C
@@ -223,7 +223,7 @@ def refusal_of(error: Exception, mission: Mission) -> InputError:
     Raises:
         Exception: the error is another one.
     """
-    told = explained(error, mission.controller.name)
+    told = explained(error)
     if isinstance(told, InputError):
         return told
     raise error
@@ -244,8 +244,12 @@ def _results_of(group: FlightGroup, keep: str, going: Callable[[], bool], *, ref
 def _flown(flights: list[FlightPlan], keep: str, going: Callable[[], bool]) -> list[Any]:
     """The flights of a group, flown as a block if there are several, or their metrics."""
     p = flights[0]
-    rows, every = (p.steps // p.every + 1, p.every) if keep == "flights" else (1, p.steps + 1)
+    whole = keep == "flights" or any(own_metrics(one.mission) for one in flights)  # these read channels
+    rows, every = (p.steps // p.every + 1, p.every) if whole else (1, p.steps + 1)
     raw = (
         [fly_stepwise(p, rows, every, going=going)] if p.stepwise else _fly_compiled(flights, rows, every, going=going)
     )
-    return list(map(flight_of if keep == "flights" else metrics_of, flights, raw))
+    if not whole:
+        return list(map(metrics_of, flights, raw))
+    results = list(map(flight_of, flights, raw))
+    return results if keep == "flights" else [one.metrics() for one in results]

@@ -10,6 +10,7 @@ import numpy as np
 
 from tandemlift.core.caching import LastUsed
 from tandemlift.core.law import replaced
+from tandemlift.core.plugs import explained, listed, plugin_of
 from tandemlift.core.types import layout_and_numbers
 from tandemlift.core.vector import ZERO, each, layout
 from tandemlift.engines.registry import engine_named
@@ -55,18 +56,27 @@ class FlightPlan:
     ) -> None:
         if not in_block:
             check_double(mission, "only fly, fly_many, Block, environments and studies compute in single precision")
+        chosen, brought = engine_named(engine), plugin_of("engine", engine)
+        mission = mission.with_plugins([brought.said]) if brought else mission
+        for plugin in mission.plugins:
+            listed(plugin._asdict())  # as it was loaded for the mission
         self.mission, self.engine, self.interactive = mission, engine, interactive
         self.steps = mission.mission.steps
         self.every = mission.mission.log_every
         self.dt = mission.mission.step
         self.single = mission.mission.precision == "single"
-        self.model, self.given, self.tables, self.delays, self.seeds = assembled_by_graph(mission, assemble)
+        try:
+            self.model, self.given, self.tables, self.delays, self.seeds = assembled_by_graph(mission, assemble)
+        except Exception as error:
+            if (told := explained(error)) is error:
+                raise
+            raise told from error
         if interactive:
             rotors = 4 * len(mission.vehicle.quadrotors)
             none = each(rotors)(*[0.0] * rotors)
             nothing = CallerInput(ZERO, ZERO, none, 0.0, ReferenceVelocity(ZERO, 0.0))
             self.given = self.given._replace(external=nothing)
-        if engine_named(engine).pushable:
+        if chosen.pushable:
             self.given = self.given._replace(outside=OutsidePush(ZERO, ZERO))
         self.interpreted: tuple[Any, Any] | None = None
         if type(self.model.pilot.controller) in control.interpreted:

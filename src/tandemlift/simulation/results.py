@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.core.errors import suggestion
+from tandemlift.core.errors import InputError, suggestion
 from tandemlift.core.faults import ALARM_TEXTS, CHECKS
 from tandemlift.core.files import versions
 from tandemlift.core.phases import CONTACT as PHASE_CONTACT
 from tandemlift.core.phases import FAILURES, IDLE, PHASE_NAMES
+from tandemlift.core.plugs import Plug, error_text, file_of, listed
 from tandemlift.core.types import Array, flat, leaves, unflat
 from tandemlift.core.vector import Absent, Vec3, dot
 from tandemlift.flight.channels import DERIVED
@@ -216,7 +217,7 @@ def flight_of(p: FlightPlan, flown: RawResult, engine: str = "compiled") -> Flig
     logged = len(flown.log) if not flown.lost else -(-flown.step // p.every)
     metrics, now, tables = metrics_of(p, flown), flown.now or p, tables_of(p.mission)
     time = np.arange(logged, dtype=np.float64) * p.every * p.dt
-    return Flight(
+    flight = Flight(
         time=time,
         channels=recorded_channels(p.sample, flown.log[:logged], tables, time),
         mission=portable(tables),
@@ -225,3 +226,24 @@ def flight_of(p: FlightPlan, flown: RawResult, engine: str = "compiled") -> Flig
         version={**versions(engine), "engine": engine},
         findings=findings_of(now, flown.flight_state, flown.step, metrics["outcome"]),
     )
+    for own in own_metrics(p.mission):
+        flight.results[own.name] = _value(own, flight)
+    return flight
+
+
+def own_metrics(mission: Any) -> list[Plug]:
+    """The metrics that the plugins of a mission bring."""
+    return [metric for plugin in mission.plugins for metric in listed(plugin._asdict()).parts("metric")]
+
+
+def _value(metric: Plug, flight: Flight) -> Any:
+    try:
+        value = metric.start(flight)
+        numbers = None if value is None else np.asarray(value, float)
+    except Exception as error:
+        raise InputError(f"metric {metric.name!r} fails: {error_text(error, file_of(metric.start))}") from error
+    if numbers is None or (numbers.size and not np.isfinite(numbers).all()):
+        return None
+    if numbers.ndim > 1:
+        raise InputError(f"metric {metric.name!r}: must give a number, a list of numbers or None, not {value!r:.60}")
+    return numbers.tolist()

@@ -27,10 +27,9 @@ from tandemlift.core.errors import InputError
 
 LIMITS = (ROOT / "evidence" / "certified_random_missions.csv").read_text("utf-8").splitlines(keepends=True)[:30]
 HYBRID = """
-from tandemlift.parts.estimation.wrench.start_observer import OwnObserver, start_wrench_observer
-from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable
+from tandemlift.core.plugs import PLUGS, plug
 
-observer = OwnObserver(lambda *known: start_wrench_observer("hybrid", WrenchTable(), *known))
+plug("observer", "own-hybrid")(lambda *known: PLUGS["observer"]["hybrid"].start(*known))
 """
 NAMES = ("roll (N m)", "pitch (N m)", "yaw (N m)")
 TASKS, COLUMNS = benchmark.tasks, benchmark.TABLES  # as they are
@@ -202,8 +201,11 @@ REFUSED = {  # a file: its text, and the words of its refusal
     "joints.py": ("def observer(table): return table", "a baseline has this name"),
     "both.py": (f"{CONTROLLER}\ndef observer(table): return 0", "the controller 'entry-pd' and an observer"),
     "broken.py": ("x = (", "line 1: SyntaxError"),
-    "branches.py": (BRANCHING, "branches on data"),
-    "grows.py": (LAW.replace("Memory(force)\n", "Memory(force.x)\n"), "must keep its layout"),
+    "branches.py": (BRANCHING.replace("low-pass", "branching"), "branches on data"),
+    "grows.py": (
+        LAW.replace("Memory(force)\n", "Memory(force.x)\n").replace("low-pass", "growing"),
+        "must keep its layout",
+    ),
     "cannot.py": (CONTROLLER.replace("    e, de", STEERED).replace("entry", "other"), r"line \d+"),
     "flight.npz": ("", "an entry is"),
     "mission.toml": ("[mission]\nname = 'x'", r"no weights in \[compliance\.policy\]"),

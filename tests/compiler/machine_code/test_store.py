@@ -15,6 +15,7 @@ import sys
 import threading
 import time
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 from patience import PATIENCE
@@ -23,9 +24,10 @@ import tandemlift as tl
 from tandemlift.compiler.machine_code import machine, store
 from tandemlift.core import law
 from tandemlift.core.caching import LastUsed
-from tandemlift.parts.controllers import control
+from tandemlift.core.plugs import plug
+from tandemlift.core.vector import ZERO, Vec3
+from tandemlift.parts.interaction.admittance import gate
 from tandemlift.simulation import plan
-from tandemlift.simulation.pilot_api import pilot_at_start
 
 CHANGES = {"mission.duration": 0.5}
 FLY = """
@@ -90,29 +92,22 @@ def check_entries(cache):
     return [file for file in files if not file.stem.endswith(("-text", "-module"))]
 
 
-@pytest.mark.thorough
-def test_a_law_in_place_of_the_packages_own_flies_at_once_and_leaves_no_code_under_its_name(cache, right, monkeypatch):
-    mission = tl.load_mission("one-push", CHANGES)
-    started = pilot_at_start(mission).parameters.controller
-    own = control.table[type(started)]
+class OwnGate(NamedTuple):
+    """A gate of a test, whose laws it registers."""
 
-    def half_the_thrust(gains, memory, measured, reference):
-        command, after = own(gains, memory, measured, reference)
-        return command._replace(wrench=command.wrench._replace(thrust=command.wrench.thrust * 0.5)), after
+    threshold: Vec3
 
-    monkeypatch.setitem(control.table, type(started), own)
-    monkeypatch.setattr(plan, "LOOP_CODE", LastUsed(8))
-    for filled in (False, True):
-        if filled:
-            assert tl.fly(mission)["position"][-1, 2] > -1e-6
-        try:
-            control.register(type(started))(half_the_thrust)
-            assert store.key_of(started) == ""
-            assert tl.fly(mission)["position"][-1, 2] < -1e-4
-        finally:
-            control.table[type(started)] = own
-            law.REPLACED.clear()
-        assert here() == right[0]
+
+def test_a_law_of_ones_own_that_is_registered_anew_flies_at_once_and_leaves_no_code_under_its_name(cache, right):
+    plug("gate", "of-a-test")(lambda table: OwnGate(ZERO))
+    mission, ends = tl.load_mission("one-push", {"mission.duration": 8.0, "admittance.gate": "of-a-test"}), []
+    for own in (lambda kind, F: kind.threshold, lambda kind, F: F, lambda kind, F: F * 2.0):
+        gate.register(OwnGate)(own)
+        assert store.key_of(OwnGate(ZERO)) == ""
+        ends.append(tl.fly(mission)["reference_position"][-1, 0])
+    law.REPLACED.clear()
+    assert ends[0] == 0.0 < ends[1] == pytest.approx(0.5 * ends[2])
+    assert here() == right[0]
 
 
 # Several processes

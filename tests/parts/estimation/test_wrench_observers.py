@@ -15,7 +15,7 @@ from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
 from tandemlift.parts.estimation.wrench.delay import delay_of, delayed
 from tandemlift.parts.estimation.wrench.kalman import natural_frequency, steady_gain, turning_gains
 from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation, observe
-from tandemlift.parts.estimation.wrench.start_observer import SampleNoise, start_wrench_observer
+from tandemlift.parts.estimation.wrench.start_observer import OBSERVERS, SampleNoise
 from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable
 from tandemlift.parts.mechanics.low_pass import LowPassState
 from tandemlift.parts.mechanics.rigid_body import State, Wrench
@@ -30,7 +30,7 @@ ALL = ("momentum", "hybrid", "disturbance-observer", "kalman", "extended-kalman"
 
 
 def started(name):
-    return start_wrench_observer(name, TABLE, BODY, NOISE, H)
+    return OBSERVERS[name].start(TABLE, BODY, NOISE, H)
 
 
 def seen(state, specific_force, rotors, motion=None, fresh=1.0):
@@ -103,7 +103,7 @@ def test_a_found_wrench_stays_as_it_is_when_the_bandwidth_changes_in_flight(name
     k, memory = started(name)
     for i, x in enumerate(level_flight(force, moment, 4000)):
         if i == 3500:
-            k, _ = start_wrench_observer(name, WrenchTable(moment_bandwidth=(8.0, 8.0, 8.0)), BODY, NOISE, H)
+            k, _ = OBSERVERS[name].start(WrenchTable(moment_bandwidth=(8.0, 8.0, 8.0)), BODY, NOISE, H)
         wrench, memory = observe(k, memory, x)
         if i >= 3500:
             assert (*wrench.force, *wrench.moment) == pytest.approx((*force, *moment), abs=1e-5)

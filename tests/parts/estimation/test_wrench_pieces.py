@@ -29,6 +29,7 @@ from tandemlift.parts.estimation.wrench.fused import (
     turning_gains,
     unexplained,
 )
+from tandemlift.parts.estimation.wrench.start_observer import OBSERVERS
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
@@ -140,8 +141,9 @@ def test_the_confirmed_push_rises_and_falls_in_its_times(left, lately, time):
 def test_an_observer_is_told_the_noise_of_a_sample_at_its_interval(monkeypatch):
     """White noise of a sensor that is read four times as often is twice as large in each sample."""
     seen = []
-    monkeypatch.setattr(wrench_push, "start_wrench_observer", lambda *given: seen.append(given[3]) or (None, None))
-    mission = load_mission("iris", {"sensors.noise_interval": 0.004})
+    held = OBSERVERS["hybrid"]._replace(start=lambda *given: seen.append(given[2]) or (None, None))
+    monkeypatch.setitem(OBSERVERS, "hybrid", held)
+    mission = load_mission("iris", {"sensors.noise_interval": 0.004, "estimator.wrench": "hybrid"})
     vehicle = Vehicle.from_settings(mission.vehicle)
     wrench_push.start_wrench_push(mission.estimator, mission.sensors, vehicle, 0.001, 0.01, None)
     (noise,) = seen

@@ -11,23 +11,22 @@ import json
 import math
 import tomllib
 from collections.abc import Callable, Iterator
-from contextlib import nullcontext
 from functools import partial
 from typing import Any
 
 import numpy as np
 
 from tandemlift.analysis.studies.design.benchmark_columns import TABLES, Row, Scores
-from tandemlift.analysis.studies.design.benchmark_entry import KINDS, STOOD_IN, BenchmarkEntry, Kind, baselines
+from tandemlift.analysis.studies.design.benchmark_entry import KINDS, BenchmarkEntry, Kind, baselines
 from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution.flying import fly_each
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.files import DATA
+from tandemlift.core.plugs import error_text
 from tandemlift.core.types import Array, Progress
 from tandemlift.flight.corridor_score import score_of
 from tandemlift.flight.record import Flight, moment_of
-from tandemlift.parts.controllers.registry import error_text
 
 AT_ONCE = 4  # flights in memory
 FORCES = [round(3.0 / 1.2**i, 3) for i in range(16)]  # N: steps of a push, from 3 to 0.2 N
@@ -183,7 +182,7 @@ def scores_of(entry: BenchmarkEntry, *, quick: bool = False, progress: Progress 
         InputError: it cannot be flown: a law that does not compile, with its line, or weights that are no policy's.
     """
     try:
-        with entry.law.in_place_of(STOOD_IN) if entry.law else nullcontext(), without_flight_warnings():
+        with without_flight_warnings():
             return _scores(entry, quick, progress)
     except InputError as error:
         raise InputError(f"{entry.file.name if entry.file else entry.name}: {error}") from error

@@ -21,12 +21,12 @@ from tandemlift.analysis.studies.comparison_scores import (
 )
 from tandemlift.analysis.studies.execution.flying import fly_each
 from tandemlift.core.errors import InputError
+from tandemlift.core.plugs import explained
 from tandemlift.core.types import Progress
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, load_mission
 from tandemlift.missions.loading import MissionTemplate
 from tandemlift.parts.controllers import CONTROLLERS, Controller, controller
-from tandemlift.parts.controllers.registry import explained
 
 
 class Entry(NamedTuple):
@@ -87,10 +87,9 @@ class MissionComparison:
         try:  # on one thread, because their speed is compared
             flights = fly_each(missions, engines, keep="flights", interrupted=True, threads=1, progress=progress)
         except Exception as error:
-            told = [explained(error, mission.controller.name) for mission in missions]
-            if all(one is error for one in told):
+            if (told := explained(error)) is error:
                 raise
-            raise next(one for one in told if one is not error) from error
+            raise told from error
         flown = iter(flights)
         return replace(self, entries=[e._replace(flight=next(flown)) if e.mission else e for e in self.entries])
 

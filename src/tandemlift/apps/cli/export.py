@@ -13,7 +13,7 @@ import click
 
 from tandemlift.apps.cli.completion import FLIGHTS_AND_MISSIONS, MISSIONS, names
 from tandemlift.apps.cli.console import echo, progress_bar
-from tandemlift.apps.cli.flying import controller_option, engine_option, load, set_option
+from tandemlift.apps.cli.flying import controller_option, engine_option, load, set_option, setting_option
 from tandemlift.apps.cli.run import fly_mission
 from tandemlift.apps.export.results import flight_file
 from tandemlift.core.errors import InputError
@@ -24,8 +24,12 @@ CAMERAS = "follow, overview, front, side, top, or AZIMUTH,ELEVATION[,DISTANCE] i
 @click.command()
 @click.argument("flight_or_mission", shell_complete=FLIGHTS_AND_MISSIONS)
 @click.option("--out", metavar="FILE", required=True, help="FILE.mcap, .bag, .csv, .sdf, .xml or .urdf.")
-@set_option
-@click.option("--plugin", metavar="PORT|ros", help="For FILE.sdf: connect a pilot by a plugin.")
+@setting_option
+@click.option(
+    "--plugin",
+    metavar="PORT|ros",
+    help="For FILE.sdf: connect a pilot by a plugin of Gazebo. Parts of your own: the key `plugins` of the mission.",
+)
 def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: str | None) -> None:
     """Write a flight or a mission for other tools.
 

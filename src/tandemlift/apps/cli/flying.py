@@ -39,7 +39,29 @@ engine_option = click.option(
 strict_option: Callable[[Any], Any] = click.option(
     "--strict", is_flag=True, help="Exit with 3 if there are findings; see `findings.ignore` for kinds to leave out."
 )
-set_option = click.option(
+
+
+def _bring(context: click.Context, option: click.Parameter, files: tuple[str, ...]) -> None:
+    """Load plugins, which all missions of the command list."""
+    if files:
+        from tandemlift.core.plugs import GIVEN
+        from tandemlift.missions import load_plugin
+
+        GIVEN.extend(map(load_plugin, files))
+        context.call_on_close(GIVEN.clear)
+
+
+plugin_option: Callable[[Any], Any] = click.option(
+    "--plugin",
+    multiple=True,
+    metavar="FILE",
+    shell_complete=names(files=[".py"]),
+    callback=_bring,
+    is_eager=True,
+    expose_value=False,
+    help="Load your own parts, metrics and figures from this .py file. Can be repeated.",
+)
+setting_option = click.option(
     "--set",
     "settings",
     multiple=True,
@@ -47,6 +69,13 @@ set_option = click.option(
     shell_complete=settings,
     help="Set one key of the mission: a dotted key, and a TOML value or a word. Can be repeated.",
 )
+
+
+def set_option(command: Any) -> Any:
+    """The options of a command that flies missions: `--set` and `--plugin`."""
+    return setting_option(plugin_option(command))
+
+
 figures_option = click.option("--no-figures", is_flag=True, is_eager=True, help="Draw no figures.")
 after_crash_option = click.option(
     "--after-crash",

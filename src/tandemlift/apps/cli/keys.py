@@ -11,7 +11,7 @@ import click
 
 from tandemlift.apps.cli.completion import SCRIPTS, keys, names
 from tandemlift.apps.cli.console import echo
-from tandemlift.apps.cli.flying import chosen_controller
+from tandemlift.apps.cli.flying import chosen_controller, plugin_option
 from tandemlift.apps.export.results import file_path
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.files import atomic_write
@@ -131,6 +131,7 @@ def explain(key: str | None, controller: str | None) -> None:
 
 @click.command()
 @controller_option
+@plugin_option
 def schema(controller: str | None) -> None:
     """Print the JSON Schema of mission files, for TOML editors.
 
@@ -190,14 +191,18 @@ def missions(name: str | None) -> None:
 @click.command()
 def controllers() -> None:
     """List the controllers. One of your own is a file: docs/reference/controllers.md has one to begin with."""
+    from tandemlift.core.plugs import load_all_installed
     from tandemlift.parts.controllers import CONTROLLERS
 
+    load_all_installed()
     _print_table({name: c.summary for name, c in sorted(CONTROLLERS.items())})
 
 
 @click.command()
 def engines() -> None:
     """List the engines."""
+    from tandemlift.core.plugs import load_all_installed
     from tandemlift.engines.registry import ENGINES
 
+    load_all_installed()
     _print_table({name: e.summary for name, e in ENGINES.items()})

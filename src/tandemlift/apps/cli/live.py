@@ -12,7 +12,7 @@ import click
 
 from tandemlift.apps.cli.completion import FLIGHTS, MISSIONS
 from tandemlift.apps.cli.console import echo, exit_now, progress_bar
-from tandemlift.apps.cli.flying import FAILED, HTML, controller_option, engine_option, load, set_option
+from tandemlift.apps.cli.flying import FAILED, HTML, controller_option, engine_option, load, plugin_option, set_option
 from tandemlift.apps.export.results import check_folder, file_path, flight_file
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import DATA, check_own, write_file
@@ -122,6 +122,7 @@ def replay(flight: str, html: str | None, port: int, no_browser: bool) -> None:
 @click.option("--html", metavar="FILE", help="Write the page as one file, which works from disk.")
 @script_option
 @controller_option("Controller to fly all of them")
+@plugin_option
 def page(
     missions: tuple[str, ...], out: str | None, html: str | None, script: str | None, controller: str | None
 ) -> None:

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     help="Folder for the results; of a study the HTML file.  [default: that of the flight; of a bag out/NAME; of a "
     "study report.html in its folder]",
 )
+@flying.plugin_option
 @flying.figures_option
 @flying.kept_style_option
 @click.option(
@@ -91,6 +92,7 @@ def _report_study(folder: Path, out: str | None, metrics: tuple[str, ...], *, no
 @click.argument("figure")
 @click.argument("flights", nargs=-1, required=True, shell_complete=FLIGHTS)
 @click.option("--out", metavar="FILE", help="FILE.png, FILE.pdf or FILE.svg.  [default: out/FIGURE.png]")
+@flying.plugin_option
 @flying.style_option
 def plot(figure: str, flights: tuple[str, ...], out: str | None) -> None:
     """Draw a figure of one flight, or of several over each other.

@@ -77,9 +77,10 @@ def run(
     Exit code 3: crashed, diverged, interrupted or not lifted; what was flown is written. With --strict, also findings.
     """
     from tandemlift.codegen.known_flights import KnownFile
+    from tandemlift.core.plugs import GIVEN
 
     began, settings = time.perf_counter(), flying.with_after_crash(settings, after_crash)
-    named = study is None and row is None and controller is None and engine in (None, "compiled")
+    named = study is None and row is None and controller is None and engine in (None, "compiled") and not GIVEN
     file = KnownFile(mission, dict(map(flying.parse_setting, settings))) if mission and named else None
     known = file.flight() if file else None
     recording = None  # a known flight has none
@@ -123,7 +124,7 @@ def _selected(
 
 def fly_mission(mission: Mission, engine: str | None, file: KnownFile | None = None) -> Flight:
     """Fly a mission, which may stand in a file, with a progress bar; an error of a user's controller names its line."""
-    from tandemlift.parts.controllers.registry import explained
+    from tandemlift.core.plugs import explained
     from tandemlift.simulation.fly import fly_plan, plan_of
 
     try:
@@ -131,7 +132,7 @@ def fly_mission(mission: Mission, engine: str | None, file: KnownFile | None = N
         with progress_bar("Flying", "steps", shown=p.takes_long) as progress:
             flight, flown = fly_plan(p, progress)
     except Exception as error:
-        if (told := explained(error, mission.controller.name)) is error:
+        if (told := explained(error)) is error:
             raise
         raise told from error
     if file:

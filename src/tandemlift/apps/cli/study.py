@@ -51,6 +51,7 @@ MANY = 2_000  # rows; fewer are mostly flown by threads before processes have st
     shell_complete=names("metric"),
     help="Metric that the report shows. Can be repeated.",
 )
+@flying.plugin_option
 @click.option("--no-report", is_flag=True, help="Write no report.")
 @click.option("--dry-run", is_flag=True, help="Fly a few rows only, and estimate time and size of all.")
 @click.option("--template", is_flag=True, help="Print a commented study file.")
@@ -161,6 +162,7 @@ SCORES = ("scores.json", "scores.csv")
 @click.argument("file", required=False, type=click.Path(path_type=Path), shell_complete=names(files=[".py", ".toml"]))
 @click.option("--quick", is_flag=True, help="Few and short flights, for a first look.")
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/benchmark]")
+@flying.plugin_option
 def benchmark(file: Path | None, quick: bool, out: str | None) -> None:
     """Score your observer, controller or policy in FILE.
 

@@ -6,16 +6,16 @@ Errors have a plain message with the line of the controller's file.
 from __future__ import annotations
 
 import functools
-import inspect
 import numbers
-import re
-import traceback
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from tandemlift.core.errors import InputError
+from tandemlift.core.plugs import PLUGS, Plug, is_of_the_package, plug
+from tandemlift.core.plugs import error_text as error_text
+from tandemlift.core.plugs import file_of as file_of_part
 from tandemlift.core.types import is_symbol
 from tandemlift.core.vector import ZERO, Quat, Vec3, layout
 from tandemlift.parts.controllers.interface import Command, ControllerTable, Disturbance, Measured, control
@@ -36,7 +36,7 @@ class Controller:
     start: Start
 
 
-CONTROLLERS: dict[str, Controller] = {}
+CONTROLLERS: dict[str, Controller] = PLUGS["controller"]
 
 
 def register(name: str, settings: type[ControllerTable]) -> Callable[[Start], Start]:
@@ -47,28 +47,27 @@ def register(name: str, settings: type[ControllerTable]) -> Callable[[Start], St
     Raises:
         InputError: the name is invalid or used by another module, or `settings` is no ControllerTable.
     """
-    if not isinstance(name, str) or not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]{0,63}", name):
-        raise InputError(f"a controller cannot be named {name!r}: letters, digits, '_' and '-', a letter first")
     if not (isinstance(settings, type) and issubclass(settings, ControllerTable)):
         raise InputError(f"controller {name!r}: its settings must be a class derived from ControllerTable")
+    return plug("controller", name, settings)
 
-    def keep(start: Start) -> Start:
-        held = CONTROLLERS.get(name)
-        file = held and file_of(held)
-        if held and held.start.__module__ != start.__module__ and file != start.__code__.co_filename:
-            raise InputError(f"the name {name!r} is taken by the controller in {Path(str(file)).name}; choose another")
-        nothing = f"of {Path(start.__code__.co_filename).name}, which does not describe it"
-        summary = (inspect.getdoc(start) or nothing).partition("\n")[0]
-        own = start.__module__.startswith("tandemlift.")
-        CONTROLLERS[name] = Controller(name, summary, settings, start if own else _checked(name, settings, start))
-        return start
 
-    return keep
+def taken_in(made: Plug) -> Controller:
+    """The controller that was registered."""
+    name, start, settings = made.name, made.start, made.table
+    if settings is None or not issubclass(settings, ControllerTable):
+        raise InputError(f"controller {name!r}: its settings must be a class derived from ControllerTable")
+    nothing = f"of {Path(start.__code__.co_filename).name}, which does not describe it"
+    own = is_of_the_package(start)
+    return Controller(name, made.summary or nothing, settings, start if own else _checked(name, settings, start))
 
 
 def file_of(controller: Controller) -> str:
     """The file that registered a controller."""
-    return inspect.unwrap(controller.start).__code__.co_filename
+    return file_of_part(controller.start)
+
+
+PLUGS["controller"].open(taken_in)
 
 
 def _checked(name: str, settings: type[ControllerTable], start: Start) -> Start:
@@ -160,22 +159,3 @@ def _try(name: str, gains: object, memory: object, like: object) -> None:
     if layout(after) != like:
         raise InputError(f"{place} must keep its memory: it starts as {form(memory)} and cannot become {form(after)}")
     _tried.add((law, like))
-
-
-def explained(error: Exception, name: str) -> Exception:
-    """The error of a user's controller of that name, with the line of its file; any other error unchanged."""
-    own, files = CONTROLLERS.get(name), {frame.filename for frame in traceback.extract_tb(error.__traceback__)}
-    if isinstance(error, InputError) or own is None or own.start.__module__.startswith("tandemlift."):
-        return error
-    text = f"controller {name!r} fails: {error_text(error, file_of(own))}"
-    return InputError(text) if file_of(own) in files else error
-
-
-def error_text(error: BaseException, file: str) -> str:
-    """An error in one line, with its line in the file."""
-    name, kind = Path(file).name, "" if isinstance(error, InputError) else f"{type(error).__name__}: "
-    lines: list[Any] = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == file]
-    said: object = error
-    if isinstance(error, SyntaxError) and error.filename == file:
-        lines, said = [error.lineno], error.msg
-    return f"{name}{f', line {lines[-1]}' if lines else ''}: {kind}{said}"

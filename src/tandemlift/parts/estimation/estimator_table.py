@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Literal
+from typing import Annotated, Literal
 
 from tandemlift.core.errors import CheckResult, refused, warned
 from tandemlift.core.keys import Bandwidth, NonNegative, Positive, Scale, Table, key
+from tandemlift.core.plugs import Chosen
 from tandemlift.parts.estimation.wrench.wind_compensation import compensation_checks as compensation_checks
 from tandemlift.parts.estimation.wrench.wrench_table import MotionNoise, WrenchTable, bandwidth_checks
 from tandemlift.parts.mechanics.push import PushTable
@@ -31,8 +32,11 @@ class EstimatorTable(
     it. During the tare, in hover, it is assumed to be zero; the joints' readings are then their bias.
     """
 
-    wrench: Literal[
-        "joints", "momentum", "hybrid", "disturbance-observer", "kalman", "extended-kalman", "unscented", "fused"
+    wrench: Annotated[
+        Literal[
+            "joints", "momentum", "hybrid", "disturbance-observer", "kalman", "extended-kalman", "unscented", "fused"
+        ],
+        Chosen("observer"),
     ] = key(
         "joints",
         None,

@@ -31,7 +31,7 @@ from tandemlift.parts.estimation.push_estimate import (
 )
 from tandemlift.parts.estimation.wrench.delay import RotorDelay, RotorDelayState, late_wrench, rotor_delay
 from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation, PushEstimate, observe
-from tandemlift.parts.estimation.wrench.start_observer import SampleNoise, start_wrench_observer
+from tandemlift.parts.estimation.wrench.start_observer import OBSERVERS, SampleNoise
 from tandemlift.parts.estimation.wrench.tare import SideForces, TareSums, is_tared, summed, tare_fields, tare_of
 from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import UP, State, Wrench, inertia_value
@@ -218,7 +218,7 @@ def start_wrench_push(
         motion.attitude_noise,
     )
     body = NominalBody(vehicle.mass, inertia_value(vehicle.inertia), inertia_value(inverse(vehicle.inertia)))
-    observer, memory = start_wrench_observer(e.wrench, e.wrench_observer, body, noise, interval)
+    observer, memory = OBSERVERS[e.wrench].start(e.wrench_observer, body, noise, interval)
     rotors, speeds = rotor_model(vehicle, interval)
     surface = ground_effect_from(vehicle, floor)
     delay, undelayed = rotor_delay(late + 0.5 * interval, vehicle.mass, noise.accelerometer, interval)

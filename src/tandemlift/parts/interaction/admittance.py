@@ -8,7 +8,7 @@ T̈_r is computed at the sample and held over the step.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, Literal, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple
 
 from pydantic import ValidationError
 from pydantic_core import PydanticCustomError
@@ -18,6 +18,7 @@ from tandemlift.core.caching import cached
 from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.keys import NonNegative3, Positive3, Table, is_number, key
 from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.plugs import PLUGS, Chosen, plug
 from tandemlift.core.types import LN_20, Number
 from tandemlift.core.vector import Vec3, vec3
 from tandemlift.parts.mechanics.trajectories import Trajectory
@@ -89,11 +90,11 @@ class AdmittanceTable(Table):
         (0.0, 0.0, 0.0), "N/m", "virtual stiffness K; with 0 the vehicle stays where it was pushed"
     )
     threshold: NonNegative3 = key(..., "N", "forces up to this are ignored", example=0.3)
-    gate: Literal["hard", "soft"] | None = key(
+    gate: Annotated[Literal["hard", "soft"], Chosen("gate")] | None = key(
         None,
         None,
         "part of a force above the threshold that acts",
-        rule='not "hard" where pilot.guidance is "interactive"',
+        rule='"soft" or left out where pilot.guidance is "interactive"',
         unset="hard scheduled, soft interactive",
         example="soft",
         choices={"hard": "the whole force", "soft": "only the excess over the threshold"},
@@ -228,16 +229,26 @@ def admittance_from(a: AdmittanceTable) -> Admittance:
 
 
 @cached
-def gate_from(a: AdmittanceTable) -> HardGate | SoftGate:
-    """The gate of scheduled guidance; interactive guidance has the dead band of its compliance instead."""
-    kind = SoftGate if a.gate == "soft" else HardGate
-    return kind(vec3(a.threshold))
+def gate_from(a: AdmittanceTable) -> Any:
+    """The gate of scheduled guidance, by whose type `gate` finds its law; interactive guidance has the dead band of its
+    compliance instead."""
+    return PLUGS["gate"][a.gate or "hard"].start(a)
+
+
+@plug("gate", "hard")
+def _hard(a: AdmittanceTable) -> HardGate:
+    return HardGate(vec3(a.threshold))
+
+
+@plug("gate", "soft")
+def _soft(a: AdmittanceTable) -> SoftGate:
+    return SoftGate(vec3(a.threshold))
 
 
 def gate_checks(a: AdmittanceTable, guidance: str) -> Iterator[CheckResult]:
     """A hard gate with interactive guidance, whose dead band is a soft one; `guidance`: `pilot.guidance`."""
-    if a.gate == "hard" and guidance == "interactive":
-        yield refused('admittance.gate = "hard": must be "soft" or left out where pilot.guidance is "interactive"')
+    if a.gate not in (None, "soft") and guidance == "interactive":
+        yield refused(f'admittance.gate = "{a.gate}": must be "soft" or left out where pilot.guidance is "interactive"')
 
 
 def admittance_checks(a: AdmittanceTable, step: float) -> Iterator[CheckResult]:

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import inspect
+import linecache
 import re
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
 from tandemlift.core.errors import InputError
 from tandemlift.core.law import choice
+from tandemlift.core.plugs import PLUGS, Plug, plug
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Quat, Vec3, spread
 from tandemlift.parts.mechanics.joint_loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.sensors.vehicle_sensors import ADDITIONAL, DEVICES, SENSORS, Sensor
+from tandemlift.parts.sensors.vehicle_sensors import DEVICES, SENSORS, Sensor
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -43,24 +44,26 @@ def register_sensor(sensor: Sensor) -> Callable[[F], F]:
     Raises:
         InputError: the name is invalid or used, the law is in no file, or returns something else.
     """
-    name = sensor.name
-    if not re.fullmatch(r"[a-z][a-z0-9_]{0,31}", name):
-        raise InputError(f"a sensor cannot be named {name!r}: must be small letters, digits and '_', a letter first")
+    _check_form(sensor.name)
+    return plug("sensor", sensor.name, sensor)
 
-    def keep(law: F) -> F:
-        _check_name(name, law)
-        parameters = _type_of_parameters(name)
-        parameters.__module__ = law.__module__  # the compiled code depends on its file
-        value = law(parameters(None, None), AT_REST, NO_LOAD)
-        if not isinstance(value, FORMS.get(sensor.width, ())):
-            form = type(value).__name__
-            raise InputError(f"sensor {name!r}: its law must give a number for width 1, a Vec3 for 3, not {form}")
-        true_value.register(parameters)(law)
-        PARAMETERS[name] = parameters
-        ADDITIONAL[name] = sensor
-        return law
 
-    return keep
+def taken_in(made: Plug) -> Sensor:
+    """The row of a sensor, whose law is registered."""
+    name, law, sensor = made.name, made.start, made.table
+    if not isinstance(sensor, Sensor) or sensor.name != name:
+        raise InputError(f"sensor {name!r}: its table must be its row, additional({name!r}, UNIT, MEANING)")
+    _check_form(name)
+    _check_name(name, law)
+    parameters = _type_of_parameters(name)
+    parameters.__module__ = law.__module__  # the compiled code depends on its file
+    value = law(parameters(None, None), AT_REST, NO_LOAD)
+    if not isinstance(value, FORMS.get(sensor.width, ())):
+        form = type(value).__name__
+        raise InputError(f"sensor {name!r}: its law must give a number for width 1, a Vec3 for 3, not {form}")
+    true_value.register(parameters)(law)
+    PARAMETERS[name] = parameters
+    return sensor
 
 
 def _type_of_parameters(name: str) -> Any:
@@ -68,12 +71,19 @@ def _type_of_parameters(name: str) -> Any:
     return NamedTuple(f"Sensor_{name}", [("channels", Any), ("period", Any)])
 
 
+PLUGS["sensor"].open(taken_in)
+
+
+def _check_form(name: str) -> None:
+    if not re.fullmatch(r"[a-z][a-z0-9_]{0,31}", name):
+        raise InputError(f"a sensor cannot be named {name!r}: must be small letters, digits and '_', a letter first")
+
+
 def _check_name(name: str, law: Callable[..., Any]) -> None:
     """Reject a name of a sensor from another file, and a law that is in no file."""
     file = inspect.unwrap(law).__code__.co_filename
-    if not Path(file).is_file():
+    if not linecache.getlines(file):
         raise InputError(f"sensor {name!r}: its law must be defined in a file, not in {file}")
-    held = true_value.table[PARAMETERS[name]].__code__.co_filename if name in PARAMETERS else file
     taken = {*SENSORS, *DEVICES, *[quantity for sensor in SENSORS.values() for quantity in sensor.quantities]}
-    if name in taken or held != file:
+    if name in taken:
         raise InputError(f"a sensor cannot be named {name!r}: there is another one of that name")

@@ -12,6 +12,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tandemlift.core.errors import unknown
+from tandemlift.core.plugs import PLUGS, has
 
 
 class Sensor(NamedTuple):
@@ -55,7 +56,7 @@ def additional(name: str, unit: str, meaning: str, *, frame: str = "", width: in
     return Sensor(name, name, ("value",), unit, frame, meaning, width)
 
 
-ADDITIONAL: dict[str, Sensor] = {}
+ADDITIONAL: dict[str, Sensor] = PLUGS["sensor"]
 """By name; `sensor_registry.register_sensor` adds each."""
 
 
@@ -75,6 +76,6 @@ def additional_sensor(name: str) -> Sensor:
     Raises:
         InputError: there is none.
     """
-    if name not in ADDITIONAL:
+    if not has("sensor", name):
         raise unknown("additional sensor", name, sorted(ADDITIONAL))
     return ADDITIONAL[name]

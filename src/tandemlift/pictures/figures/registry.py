@@ -6,26 +6,50 @@ The drawing library is loaded on first use, not when this file is imported.
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from tandemlift.core.errors import InputError, suggestion, unknown
+from tandemlift.core.plugs import PLUGS, Plug
 from tandemlift.core.types import Progress
 from tandemlift.flight.channels import CHANNELS
 from tandemlift.flight.record import Flight
-from tandemlift.pictures.drawing.figure import current_style, figure_style
+from tandemlift.pictures.drawing.figure import Caption, all_flights, current_style, figure_style
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from tandemlift.pictures.drawing.figure import Caption, FlightFigure
+    from tandemlift.pictures.drawing.figure import FlightFigure
+
+
+class OwnFigure(NamedTuple):
+    """A figure that a user has brought, of every flight."""
+
+    CAPTION: Caption
+    draw: Callable[[Flight], Figure]
+    IN_FLIGHTS: Callable[[Flight], bool] = all_flights
+    OVERLAY: None = None
+
+
+def taken_in(made: Plug) -> OwnFigure:
+    """The figure of a function of a `Flight`; the first line of its docstring is the caption."""
+    if made.name in _built_in() or made.name in CHANNELS:
+        raise InputError(f"the name {made.name!r} is taken by a figure or channel of the package; choose another")
+    return OwnFigure(Caption(made.name, made.summary, made.summary), made.start)
+
+
+PLUGS["figure"].open(taken_in)
+
+
+def figures() -> dict[str, FlightFigure]:
+    """All figures of flights by name: those of the paper in its order, the others, and those of users."""
+    return {**_built_in(), **PLUGS["figure"]}
 
 
 @cache
-def figures() -> dict[str, FlightFigure]:
-    """All figures of flights by name: those of the paper in its order, then the others."""
+def _built_in() -> dict[str, FlightFigure]:
     from tandemlift.pictures.figures import (
         corridor,
         disturbance,

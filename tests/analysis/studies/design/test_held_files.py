@@ -17,6 +17,7 @@ from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution.store import open_folder
 from tandemlift.analysis.studies.study import mission_of_row
 from tandemlift.analysis.studies.table import load_study
+from tandemlift.core.plugs import PluginText
 from tandemlift.missions.recording import WIDTH, Recording, read_recording, write_recording
 from tandemlift.parts.controllers import CONTROLLERS, controller, file_of
 
@@ -87,14 +88,18 @@ def test_the_text_that_ran_is_held_even_if_its_file_has_changed_since(own, tmp_p
     tables["study"]["controllers"] = ["held"]  # by its name
     (tmp_path / "held.py").write_text("raise SystemExit('another text')", "utf-8")
     (variant,) = load_plan(tables).variants
-    assert variant.controller_file == ("held.py", PLAIN.replace('"my-pd-plain"', '"held"'))
+    assert [(one.name, one.text) for one in variant.plugins] == [("held.py", PLAIN.replace('"my-pd-plain"', '"held"'))]
 
 
 def test_an_error_in_the_controller_of_a_study_names_its_file_and_line(own, tmp_path):
     tables = own(PLAIN)
     folder = open_folder(load_plan(tables), tmp_path / "out")
-    variant = folder.plan().variants[0]._replace(controller_file=("held.py", "x = 1\nraise ValueError('no')\n"))
-    with pytest.raises(tl.InputError, match=r"^controller file held\.py, line 2: ValueError: no$"):
+    variant = (
+        folder.plan()
+        .variants[0]
+        ._replace(plugins=(PluginText("held.py", "0" * 64, "x = 1\nraise ValueError('no')\n"),))
+    )
+    with pytest.raises(tl.InputError, match=r"^plugin held\.py, line 2: ValueError: no$"):
         variant.template()
 
 

@@ -67,7 +67,7 @@ def test_a_controller_s_file_that_changed_since_is_named(tmp_path):
 
 EDITS = {
     "a mission": lambda said: said["variants"][0]["tables"].update(plant={"mass_scale": 1.1}),
-    "a controller": lambda said: said["variants"][0].update(controller_file=["mine.py", "raise SystemExit('ran')"]),
+    "a plugin": lambda said: said["variants"][0].update(plugins=[["mine.py", "0" * 64, "raise SystemExit('ran')"]]),
     "the digest": lambda said: said.update(digest=said["digest"][::-1]),
     "a key of its own": lambda said: said.update(more=1),
 }

@@ -11,20 +11,20 @@ from typing import Any, Literal, NamedTuple, get_args
 import numpy as np
 
 from tandemlift.core.errors import InputError
+from tandemlift.core.plugs import file_text, run_text
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission
 from tandemlift.parts.controllers import CONTROLLERS
-from tandemlift.parts.controllers.user_controller import file_text, run_file
 
 Kind = Literal["controllers", "observers", "policies"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
-STOOD_IN, RECORDED = "momentum", "kalman"  # the observer in whose place a law flies; the one that flies with a function
+RECORDED = "kalman"  # the observer that flies with a function
 WRENCH, POLICY = "estimator.wrench", "compliance.policy"
 NETWORK = {f"{POLICY}.model": "network"}
 CHECKSUMS = "SHA256SUMS"
 WHAT = (
-    "an entry is a .py file that registers one controller, or defines `observer`, or a .toml file with the weights of "
-    "a policy, such as tuned.toml of `tandemlift train`"
+    "an entry is a .py file that registers one controller or observer, or defines `observer`, or a .toml file with the "
+    "weights of a policy, such as tuned.toml of `tandemlift train`"
 )
 
 
@@ -41,7 +41,6 @@ class BenchmarkEntry(NamedTuple):
         name: of the row.
         changes: of every mission that it flies.
         controller: its name, or its file; "" for the mission's.
-        law: an observer of one's own, an `OwnObserver`; None for others.
         function: an observer that is a function of a table (see `benchmark.of_function`); None for others.
         file: of the entry; None for a baseline.
     """
@@ -50,7 +49,6 @@ class BenchmarkEntry(NamedTuple):
     name: str
     changes: dict[str, Any]
     controller: str = ""
-    law: Any = None
     function: Callable[..., Any] | None = None
     file: Path | None = None
 
@@ -87,21 +85,18 @@ def entry_of(file: Path) -> BenchmarkEntry:
         return _policy(file)
     if file.suffix != ".py":
         raise InputError(f"{file}: {WHAT}")
-    try:
-        module, controllers = run_file(file_text(file), file.resolve())
-    except InputError as error:
-        raise InputError(str(error).removeprefix("controller ")) from None
-    observer = vars(module).get("observer")
-    found = [f"the controller {one.name!r}" for one in controllers] + ["an observer"] * callable(observer)
-    if hasattr(observer, "in_place_of"):
-        found += ["an observer"]
+    loaded = run_text(file_text(file, "file"), file.resolve(), "file")
+    function = vars(loaded.module).get("observer")
+    laws = {name: kind for kind, name, _ in loaded.entries if kind in ("controller", "observer")}
+    found = [f"the {kind} {name!r}" for name, kind in laws.items()] + ["an observer"] * callable(function)
     if len(found) != 1:
         raise InputError(f"{file.name} holds {' and '.join(found) or 'no entry'}; it must hold one: {WHAT}")
-    if controllers:
+    if callable(function):
+        return BenchmarkEntry("observers", file.stem, {WRENCH: RECORDED}, function=function, file=file)
+    ((name, kind),) = laws.items()
+    if kind == "controller":
         return BenchmarkEntry("controllers", file.stem, {}, str(file.resolve()), file=file)
-    if callable(observer):
-        return BenchmarkEntry("observers", file.stem, {WRENCH: RECORDED}, function=observer, file=file)
-    return BenchmarkEntry("observers", file.stem, {WRENCH: STOOD_IN}, law=observer, file=file)
+    return BenchmarkEntry("observers", file.stem, {WRENCH: name}, file=file)
 
 
 def _policy(file: Path) -> BenchmarkEntry:

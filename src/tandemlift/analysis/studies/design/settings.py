@@ -80,6 +80,9 @@ class StudyTable(Table):
     controllers: Names = key(
         (), None, "controllers to fly each mission with: names or .py files; empty: the mission's own", example=[]
     )
+    plugins: Names = key(
+        (), None, "files, from the folder of this one, or entry points of packages that bring what it names", example=[]
+    )
     engines: Annotated[Names, AfterValidator(_some)] = key(
         ("compiled",), None, "engines to fly each of these in", example=["compiled"]
     )

@@ -42,7 +42,7 @@ def load_plan(study: str | os.PathLike[str] | Mapping[str, Any], changes: Mappin
         tables = changed_tables(tables, key, value, source)
     settings = checked_settings(tables, source)
     try:
-        plan = StudyPlan(settings, variants_of(settings.study, folder))
+        plan = StudyPlan(settings, variants_of(settings, folder))
         plan.check()
     except InputError as error:
         raise InputError(f"{source}: {error}") from None

@@ -7,29 +7,29 @@ of a user's controller and the bytes of a recording.
 from __future__ import annotations
 
 import base64
-import hashlib
+import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tandemlift.analysis.studies.design.settings import StudyTable
+from tandemlift.analysis.studies.design.settings import StudySettings
 from tandemlift.core.errors import InputError, unknown, without_flight_warnings
+from tandemlift.core.plugs import KINDS, PLUGS, STUDY, Plugin, PluginText, has, listed, plugin_of, run_text
 from tandemlift.engines.registry import engine_named
 from tandemlift.missions import check
 from tandemlift.missions.changes import Tables, merge, value_at
 from tandemlift.missions.checking import Layer
-from tandemlift.missions.loading import MissionTemplate, read_tables
+from tandemlift.missions.loading import MissionTemplate, placed, read_tables
 from tandemlift.missions.recording import hold_recording
-from tandemlift.parts.controllers import CONTROLLERS, controller, file_of, load_controller
-from tandemlift.parts.controllers.registry import Controller
-from tandemlift.parts.controllers.user_controller import controller_text, run_controller
+from tandemlift.parts.controllers import CONTROLLERS, Controller, controller, load_controller
 
 RECORDING = ("person", "recording")
 
 
 def variant_from(said: Mapping[str, Any]) -> Variant:
     """A variant from its JSON form."""
-    return Variant(**said)._replace(controller_file=tuple(said["controller_file"]), recording=tuple(said["recording"]))
+    plugins = tuple(PluginText(*one) for one in said["plugins"])
+    return Variant(**said)._replace(plugins=plugins, recording=tuple(said["recording"]))
 
 
 class Variant(NamedTuple):
@@ -40,7 +40,7 @@ class Variant(NamedTuple):
         controller: name of the controller.
         engine: name of the engine.
         tables: the mission's tables as its files say them, unchecked.
-        controller_file: name and source of a user's controller; empty for a registered one.
+        plugins: name, digest and source of what users bring: parts that it names, and its engine.
         recording: name and base64 text of the mission's recording; empty without one.
     """
 
@@ -48,51 +48,56 @@ class Variant(NamedTuple):
     controller: str
     engine: str
     tables: Tables
-    controller_file: tuple[str, ...] = ()
+    plugins: tuple[PluginText, ...] = ()
     recording: tuple[str, ...] = ()
 
     def template(self, changes: Mapping[str, Any] | None = None) -> MissionTemplate:
         """Forms missions of this variant, with changes that all have; without warnings, because findings are counted.
 
         Raises:
-            InputError: the controller's file fails, or a change has no place in the mission.
+            InputError: a plugin fails, or is another one here, or a change has no place in the mission.
         """
         return MissionTemplate(self._tables(), [Layer(self.mission, self.tables)], changes, quiet=True)
 
     def _tables(self) -> Tables:
         """The tables on this machine."""
-        if self.controller_file:
-            name, text = self.controller_file
-            digest = hashlib.sha256(text.encode()).hexdigest()[:16]
-            run_controller(text, Path("<study>", digest, Path(name).name))
+        for plugin in self.plugins:
+            if plugin.name.endswith(".py"):
+                run_text(plugin.text, Path(STUDY, plugin.digest[:16], Path(plugin.name).name))
+            else:
+                listed(plugin._asdict())
         if self.recording:
             name, coded = self.recording
             return merge(self.tables, {"person": {"recording": hold_recording(name, base64.b64decode(coded))}})
         return self.tables
 
 
-def variants_of(study: StudyTable, folder: Path) -> list[Variant]:
+def variants_of(settings: StudySettings, folder: Path) -> list[Variant]:
     """All variants of a study, engines innermost.
 
     Args:
-        study: the table `[study]`.
+        settings: of the study; each variant has the plugins of all that they name.
         folder: where relative paths start.
 
     Raises:
         InputError: a mission, controller or engine does not exist or cannot be read.
     """
+    study, said = settings.study, settings.model_dump_json()
+    brought = [listed(placed(one, folder)) for one in study.plugins]
     for engine in study.engines:
         engine_named(engine)
+    own = [(kind, name) for kind in KINDS for name in sorted(PLUGS[kind]) if json.dumps(name) in said]
+    brought += [one for kind, name in own if (one := plugin_of(kind, name))]
     return [
         variant._replace(engine=engine)
         for mission in study.missions
         for chosen in study.controllers or (None,)
-        for variant in [_variant(mission, chosen, folder)]
+        for variant in [_variant(mission, chosen, brought, folder)]
         for engine in study.engines
     ]
 
 
-def _variant(mission: str, chosen: str | None, folder: Path) -> Variant:
+def _variant(mission: str, chosen: str | None, brought: list[Plugin], folder: Path) -> Variant:
     held = None if chosen is None else _controller(chosen, folder)
     try:
         tables, layers = read_tables(mission, held, folder)
@@ -103,10 +108,10 @@ def _variant(mission: str, chosen: str | None, folder: Path) -> Variant:
     _check_known(value_at(tables, ("controller", "name")), f"study.missions: {mission}: controller.name")
     with without_flight_warnings():
         loaded = check(tables, layers[-1].source, layers)
-    own = controller(loaded.controller.name)
-    is_ours = own.start.__module__.startswith("tandemlift.")
-    file = () if is_ours else (Path(file_of(own)).name, controller_text(own))
-    return Variant(loaded.mission.name, own.name, "compiled", tables, file, _recording(tables))
+    plugins = loaded.with_plugins(one.said for one in brought).plugins
+    if plugins:
+        tables = {**tables, "plugins": [one._asdict() for one in plugins]}
+    return Variant(loaded.mission.name, loaded.controller.name, "compiled", tables, plugins, _recording(tables))
 
 
 def _controller(chosen: str, folder: Path) -> Controller:
@@ -118,7 +123,7 @@ def _controller(chosen: str, folder: Path) -> Controller:
 
 def _check_known(name: object, key: str) -> None:
     """Reject the name of a controller that is not registered, with the way in which a study loads one."""
-    if isinstance(name, str) and name not in CONTROLLERS:
+    if isinstance(name, str) and not has("controller", name):
         error = unknown("controller", name, sorted(CONTROLLERS))
         raise InputError(f"{key}: {error} For one of your own, name its file in study.controllers.")
 

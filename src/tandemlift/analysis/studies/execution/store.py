@@ -99,7 +99,7 @@ class ChunkFiles:
 
 
 STUDY, PLAN, CHUNKS = "study.toml", "study.json", "chunks"
-FORMAT = 2
+FORMAT = 3
 
 
 class StudyFolder:
@@ -213,7 +213,7 @@ def _changed_file(folder: StudyFolder, plan: StudyPlan) -> str:
     if (folder._said["settings"], folder.sources, len(there)) != (settings, sources_digest(), len(plan.variants)):
         return ""
     for flown, here in zip(there, plan.variants, strict=True):
-        for old, new in ((flown.controller_file, here.controller_file), (flown.recording, here.recording)):
+        for old, new in (*zip(flown.plugins, here.plugins, strict=False), (flown.recording, here.recording)):
             if old != new and old[:1] == new[:1]:
                 return str(new[0])
     return ""

@@ -14,6 +14,7 @@ from tandemlift.apps.live.session import checks
 from tandemlift.apps.live.session import server_messages as server
 from tandemlift.apps.live.session.interactive_mission import NEVER
 from tandemlift.core.errors import InputError, shown
+from tandemlift.core.plugs import PLUGS
 from tandemlift.missions import Mission, built_in, tables_of
 from tandemlift.missions.changes import MISSING, Tables, place_of, value_at
 from tandemlift.missions.key_descriptions import controller_names, own_numbers
@@ -117,7 +118,7 @@ def parameters_of(tables: Tables, first: Tables) -> Iterator[server.SceneParamet
             yield shown
     yield _choice(tables, first, CONTROLLER, "controller", controller_names())
     if tables["pilot"]["guidance"] == "scheduled":  # other pilots have a dead-band instead
-        yield _choice(tables, first, GATE, "admittance", ["hard", "soft"])
+        yield _choice(tables, first, GATE, "admittance", sorted(PLUGS["gate"]))
 
 
 def scene_at(scene: server.FlightScene, now: Mission, first: Mission) -> server.FlightScene:

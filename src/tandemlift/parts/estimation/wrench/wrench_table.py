@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.keys import Positive, Positive3, Table, key
+from tandemlift.core.plugs import PLUGS
 
 BY_BANDWIDTH = ("momentum", "hybrid", "disturbance-observer")
 BY_MOTION = ("extended-kalman", "unscented")
@@ -84,6 +85,8 @@ def bandwidth_checks(
     accelerometer has a bandwidth of √(q/(m σ_v √T)) by velocities and of the cube root of q/(m σ_p √T) by positions,
     whichever is larger.
     """
+    if PLUGS["observer"].own(wrench):
+        return
     fastest, often = FASTEST / interval, f"with samples every {interval:g} s (sensors.interval)"
     for name in ("force", "moment") if wrench in BY_BANDWIDTH else ():
         bandwidth = getattr(table, f"{name}_bandwidth")
