@@ -16,7 +16,7 @@ run: .venv/run   ## fly the paper's mission and write out/paper
 live: .venv/run  ## push it by hand, in the browser
 	$(BIN)/tandemlift live
 
-test: lint types imports tests   ## lint, types, import directions, and the tests that show that all works here: a quarter of an hour
+test: lint types imports tests   ## lint, types, import directions, and the tests that show that all works here: some ten minutes
 
 test-all: test tests-thorough  ## and those that take long
 

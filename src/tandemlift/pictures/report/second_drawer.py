@@ -64,7 +64,7 @@ def draw_by_two(flight: Flight, folder: Path, progress: Progress | None = None) 
         os.close(free)
         os.close(drawn)
         with suppress(ProcessLookupError):
-            os.kill(second, signal.SIGTERM)  # it has ended, unless this one was interrupted
+            os.kill(second, signal.SIGKILL)  # it has ended, unless this one was interrupted; a handler may keep SIGTERM
         os.waitpid(second, 0)
     for number in sorted(left):
         save_flight_figure(flight, names[number], folder)
