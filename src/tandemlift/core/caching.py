@@ -14,8 +14,6 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any, TypeVar
 
-from pydantic import BaseModel
-
 F = TypeVar("F", bound=Callable[..., Any])
 Made = TypeVar("Made")
 KEPT = 64  # results of a function
@@ -106,7 +104,7 @@ def _identity(arg: Any) -> Any:
 
 def _text(arg: Any) -> Any:
     """The content of a table; anything else unchanged."""
-    return (type(arg), arg.model_dump_json()) if isinstance(arg, BaseModel) else _identity(arg)
+    return (type(arg), arg.model_dump_json()) if hasattr(arg, "model_dump_json") else _identity(arg)
 
 
 @contextmanager

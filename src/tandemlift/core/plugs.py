@@ -23,9 +23,6 @@ from pathlib import Path
 from types import FunctionType, ModuleType
 from typing import Any, NamedTuple, TypeVar
 
-from pydantic import ValidationError
-from pydantic_core import core_schema
-
 from tandemlift.core.caching import forget
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.law import CHOICES, LAWS
@@ -389,13 +386,15 @@ class Chosen:
         return [*built_in, *(name for name in PLUGS[self.kind] if PLUGS[self.kind].own(name))]
 
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        from pydantic_core import core_schema
+
         as_text = core_schema.to_string_ser_schema()
         return core_schema.no_info_wrap_validator_function(self._chosen, handler(source), serialization=as_text)
 
     def _chosen(self, value: Any, built_in: Callable[[Any], Any]) -> Any:
         try:
             return built_in(value)
-        except ValidationError:
+        except ValueError:  # as pydantic's are; a known flight never loads it
             if has(self.kind, value):
                 return value
             raise

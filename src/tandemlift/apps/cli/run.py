@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -77,10 +78,11 @@ def run(
     Exit code 3: crashed, diverged, interrupted or not lifted; what was flown is written. With --strict, also findings.
     """
     from tandemlift.codegen.known_flights import KnownFile
-    from tandemlift.core.plugs import GIVEN
 
     began, settings = time.perf_counter(), flying.with_after_crash(settings, after_crash)
-    named = study is None and row is None and controller is None and engine in (None, "compiled") and not GIVEN
+    named = study is None and row is None and controller is None and engine in (None, "compiled")
+    plugs = sys.modules.get("tandemlift.core.plugs")  # loaded by --plugin; a known flight needs none
+    named = named and not (plugs and plugs.GIVEN)
     file = KnownFile(mission, dict(map(flying.parse_setting, settings))) if mission and named else None
     known = file.flight() if file else None
     recording = None  # a known flight has none
