@@ -28,6 +28,7 @@ HTML = (".html", ".htm")
 FILES = ("mission.toml", FLIGHT_FILE, "metrics.json", "metrics.csv", "metrics.tex", "findings.json", "report.html")
 FAILED = 3  # exit code of a flight that crashed, diverged or did not lift; with --strict also of one with findings
 INTERRUPTED = 130  # exit code after Ctrl-C, as shells report it
+PLUGINS = "plugins given"  # to a command, in what its context holds
 
 engine_option = click.option(
     "--engine",
@@ -49,6 +50,7 @@ def _bring(context: click.Context, option: click.Parameter, files: tuple[str, ..
 
         GIVEN.extend(map(load_plugin, files))
         context.call_on_close(GIVEN.clear)
+        context.meta[PLUGINS] = True
 
 
 plugin_option: Callable[[Any], Any] = click.option(

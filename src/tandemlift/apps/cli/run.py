@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -81,8 +80,7 @@ def run(
 
     began, settings = time.perf_counter(), flying.with_after_crash(settings, after_crash)
     named = study is None and row is None and controller is None and engine in (None, "compiled")
-    plugs = sys.modules.get("tandemlift.core.plugs")  # loaded by --plugin; a known flight needs none
-    named = named and not (plugs and plugs.GIVEN)
+    named = named and flying.PLUGINS not in click.get_current_context().meta
     file = KnownFile(mission, dict(map(flying.parse_setting, settings))) if mission and named else None
     known = file.flight() if file else None
     recording = None  # a known flight has none

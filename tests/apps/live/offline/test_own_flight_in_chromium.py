@@ -59,7 +59,7 @@ def test_a_shake_and_a_tap_are_recorded_step_by_step_and_fly_again_to_the_last_b
     page.mouse.move(x + 60.0, y, steps=5)
     flown_on(page, 1.0)
     page.mouse.up()
-    flown_on(page, 1.0)
+    flown_on(page, 3.0)  # the picture of a busy page shows what was flown a second before
     page.keyboard.press("7")
     page.keyboard.press("w")
     flown_on(page, 0.5)
@@ -70,10 +70,10 @@ def test_a_shake_and_a_tap_are_recorded_step_by_step_and_fly_again_to_the_last_b
     flight = tl.fly(tl.load_mission(tmp_path / "recorded.toml"))
     push, time = np.linalg.norm(flight["push_force"], axis=1), flight.time
     strong = np.flatnonzero(push > 0.1)
-    shake, tap = np.split(strong, np.flatnonzero(np.diff(time[strong]) > 0.5) + 1)
+    shake, tap = np.split(strong, np.flatnonzero(np.diff(time[strong]) > 0.1) + 1)
     along = flight["push_force"][shake] @ flight["push_force"][shake[0]]
     assert np.count_nonzero(np.diff(np.sign(along))) >= 4  # in 1 s of 2.5 Hz
-    assert push[tap].max() == pytest.approx(3.0, abs=0.1)  # N, of the key
+    assert push[tap].max() == pytest.approx(3.0, abs=0.2)  # N, of the key, seen each 10 ms
     assert 0.02 < time[tap[-1]] - time[tap[0]] < 0.06  # s
 
 
