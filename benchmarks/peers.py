@@ -21,7 +21,7 @@ from machine import NO_RESULT, describe, heading, number, processors, save, tabl
 
 HERE = Path(__file__).resolve().parent
 OURS = ("tandemlift", "one-push")
-SIMULATORS = ("tandemlift", "crazyflow", "l2f", "mujoco", "rotorpy")
+SIMULATORS = ("tandemlift", "crazyflow", "hyperdrone", "l2f", "mujoco", "mjx", "rotorpy", "gym_pybullet_drones")
 PATIENCE = 300.0  # s, for a simulator to import, compile and answer
 MODES = {"one": ("one", 1), "many_1": ("many", 1), "many_2": ("many", 2)}
 
@@ -120,9 +120,9 @@ def _baseline(results: list[dict[str, Any]]) -> dict[str, Any]:
     return {"simulator": OURS[0], "row": OURS[1], **medians}
 
 
-def _label(simulator: str, what: str) -> str:
-    found = version(simulator)
-    name, comma, variant = what.partition(",")
+def _label(row: Any) -> str:
+    found = version(row.packages[0])
+    name, comma, variant = row.what.partition(",")
     return f"**{name}** {found or ''}{comma}{variant}" if found else f"**{name}**{comma}{variant}"
 
 
@@ -133,7 +133,7 @@ def _cells(result: dict[str, Any]) -> list[str]:
     ratios = " / ".join(f"{number(m['ratio'], 2)}×" if m else NO_RESULT for m in modes)
     step = row.step + (f". **Not measured: {result['failed']}**" if "failed" in result else "")
     speeds = [number(1e9 / one if one else None), *(number(speed / 1e6 if speed else None) for speed in many)]
-    return [_label(result["simulator"], row.what), step, *speeds, ratios]
+    return [_label(row), step, *speeds, ratios]
 
 
 HEADER = (

@@ -35,7 +35,7 @@ COUNT, STEPS = 256, 200
 def one(row: str) -> Advance:
     import mujoco
 
-    model = _model(row)
+    model = model_of(row)
     data = mujoco.MjData(model)
     data.xfrc_applied[1, 2] = THRUST
     data.qvel[3:] = 0.1, 0.2, 0.3
@@ -48,11 +48,11 @@ def one(row: str) -> Advance:
 
 
 def many(row: str, cores: int) -> Advance:
-    model = _model(row)
+    model = model_of(row)
     return fastest([_batch(model, cores), _rollout(model, cores)])
 
 
-def _model(integrator: str) -> Any:
+def model_of(integrator: str) -> Any:
     import mujoco
 
     return mujoco.MjModel.from_xml_string(MODEL.format(integrator=integrator))

@@ -2,29 +2,44 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from simulators import Advance, Row
 
 STEP = (
     "closed loop: push, admittance, NFTSMC with {switching}, allocation to 8 rotors, RK4 of two quadrotors and a beam "
-    "as one body, running metrics; float64, 1 ms"
+    "as one body, running metrics; {numbers}, 1 ms"
 )
+DOUBLE, SINGLE = {"numbers": "float64"}, {"numbers": "float32"}
+PACKAGES = ("tandemlift", "llvmlite")
 ROWS = {
-    "one-push": Row("tandemlift, `one-push`", STEP.format(switching="saturation"), ("tandemlift", "llvmlite")),
-    "paper": Row("tandemlift, `paper`, eight pushes", STEP.format(switching="tanh"), ("tandemlift", "llvmlite")),
+    "one-push": Row("tandemlift, `one-push`", STEP.format(switching="saturation", **DOUBLE), PACKAGES),
+    "one-push single": Row(
+        "tandemlift, `one-push`, single precision", STEP.format(switching="saturation", **SINGLE), PACKAGES
+    ),
+    "paper": Row("tandemlift, `paper`, eight pushes", STEP.format(switching="tanh", **DOUBLE), PACKAGES),
+    "paper single": Row("tandemlift, `paper`, single precision", STEP.format(switching="tanh", **SINGLE), PACKAGES),
 }
 LONG = {"mission.duration": 400.0, "mission.log_interval": 400.0}  # s
-BLOCKS = 2  # of 8 flights, a processor
+FLIGHTS = 16  # a processor: two blocks of doubles, one of floats
 
 
 def one(row: str) -> Advance:
     import tandemlift as tl
 
-    mission = tl.load_mission(row, LONG)
+    mission = _mission(row)
     return lambda: tl.fly(mission).metrics()["steps"]
 
 
 def many(row: str, cores: int) -> Advance:
     import tandemlift as tl
 
-    missions = [tl.load_mission(row, LONG)] * (8 * BLOCKS * cores)
+    missions = [_mission(row)] * (FLIGHTS * cores)
     return lambda: sum(m["steps"] for m in tl.fly_many(missions, keep="metrics", threads=cores))
+
+
+def _mission(row: str) -> Any:
+    import tandemlift as tl
+
+    name, _, precision = row.partition(" ")
+    return tl.load_mission(name, LONG | ({"mission.precision": precision} if precision else {}))

@@ -1,5 +1,6 @@
 """What is said of speed: whole calls, as a user pays them, before the compiled loop in them; the processor named."""
 
+import importlib
 import os
 import re
 import subprocess
@@ -52,3 +53,16 @@ def test_the_readme_has_the_whole_calls_of_the_benchmarks_and_their_processor():
     assert found == pytest.approx(table, rel=0.05)
     processor = re.search(r"Measured on ([^,;(]*\([^)]*\))", PAGE.read_text("utf-8"))[1]
     assert processor in text
+
+
+def test_each_simulator_that_is_measured_has_its_rows_beside_ours_and_its_packages_pinned(monkeypatch):
+    """Those that are in no registry are installed by hand."""
+    monkeypatch.syspath_prepend(ROOT / "benchmarks")
+    peers = importlib.import_module("peers")
+    _, printed = rows_below("Beside other simulators")
+    lines = [re.sub(r"[*`]| \d[\d.]*(?=,|$)", "", name) for name in printed]
+    rows = [row for name in peers.SIMULATORS for row in importlib.import_module(f"simulators.{name}").ROWS.values()]
+    assert lines == [row.what.replace("`", "") for row in rows]
+    pinned = (ROOT / "benchmarks" / "requirements-peers.txt").read_text("utf-8")
+    needed = {package for row in rows for package in row.packages} - {"tandemlift"}
+    assert {package for package in needed if f"\n{package}==" not in pinned} == {"gym-pybullet-drones"}
