@@ -57,7 +57,7 @@ def of_block(name: str, lanes: int, rounds: int, precision: str = "double") -> f
 
 
 def of_environment(lanes: int, rounds: int) -> float:
-    from tandemlift.apps.export.gymnasium_environments import FlightVectorEnv
+    from tandemlift.analysis.learning.gymnasium_environments import FlightVectorEnv
 
     envs = FlightVectorEnv(TASK, lanes, interval=INTERVAL, threads=1)
     best(envs.block)

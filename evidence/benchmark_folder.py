@@ -24,8 +24,8 @@ from certify_random_missions import drawn_changes
 
 import tandemlift as tl
 from tandemlift.analysis.studies.benchmark import COLUMNS, corridor, shipped_tables, tasks
-from tandemlift.analysis.studies.design.benchmark_columns import csv_of, json_of, lines_of
-from tandemlift.analysis.studies.design.benchmark_entry import CHECKSUMS, RECORDED, WRENCH
+from tandemlift.analysis.studies.benchmark_columns import csv_of, json_of, lines_of
+from tandemlift.analysis.studies.benchmark_entry import CHECKSUMS, RECORDED, WRENCH
 from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.core.files import __version__

@@ -32,6 +32,7 @@ from random_missions.fleets import random_fleet
 
 import tandemlift as tl
 from tandemlift.analysis.certification.changed_models import linear_limit
+from tandemlift.analysis.certification.claims import FlownLimit
 from tandemlift.analysis.certification.felt_admittance import felt_admittance, stiffness_limit
 from tandemlift.analysis.certification.flown import (
     LOST,
@@ -44,7 +45,6 @@ from tandemlift.analysis.certification.flown import (
 )
 from tandemlift.analysis.certification.linear import CHANGED, loop_as_flown, rotor_limits
 from tandemlift.analysis.certification.parameters import ARM
-from tandemlift.analysis.linearization.claims import FlownLimit
 from tandemlift.analysis.robustness.uncertain_loop import DeviatingLoop
 from tandemlift.analysis.robustness.uncertainty import family_at, hovers_of
 from tandemlift.missions import Mission

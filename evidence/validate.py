@@ -15,7 +15,7 @@ from pathlib import Path
 from validation.census import Census
 from validation.chapters import CHAPTERS, Bench, rows_of, table
 
-from tandemlift.apps.live.notices import compile_notices
+from tandemlift.apps.cli.notices import compile_notices
 from tandemlift.core.progress import watching
 from tandemlift.engines.registry import ENGINES
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import tandemlift as tl
 from tandemlift.core.algebra import Vec3, vec3
 from tandemlift.core.law import elementwise
-from tandemlift.parts.interaction.admittance import gate
+from tandemlift.parts.guidance.admittance import gate
 
 
 class SmoothGate(NamedTuple):

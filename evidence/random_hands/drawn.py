@@ -16,7 +16,7 @@ import numpy as np
 import tandemlift as tl
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission
-from tandemlift.parts.rotors.authority import PUSHED
+from tandemlift.parts.flight_checks.authority import PUSHED
 
 MISSIONS = (
     *("iris", "crazyflie-stick", "two-x500", "heavy-payload", "off-centre-push", "rotor-loss", "gusts"),

@@ -27,7 +27,7 @@ from tandemlift.analysis.certification.shakes import (
     shaken_hands,
 )
 from tandemlift.missions import Mission
-from tandemlift.parts.rotors.authority import PUSHED
+from tandemlift.parts.flight_checks.authority import PUSHED
 
 WITHIN, RATIOS = 0.15, np.geomspace(0.5, 2.0, 15)  # of a flown peak to a predicted one
 LOWEST, HIGHEST = 0.5, 10.0  # Hz

@@ -18,16 +18,16 @@ if TYPE_CHECKING:
     from tandemlift.analysis.identification.excitation_design import excite
     from tandemlift.analysis.identification.identify import identify
     from tandemlift.analysis.identification.shadow import shadow
+    from tandemlift.analysis.learning.block import Block
+    from tandemlift.analysis.learning.registration import register_environments
     from tandemlift.analysis.linearization.differentiable_step import jax_step, torch_step
     from tandemlift.analysis.linearization.linear_model import LinearModel
     from tandemlift.analysis.linearization.linearize import linearize
-    from tandemlift.analysis.studies.execution.block import Block
     from tandemlift.analysis.studies.feel import feel
     from tandemlift.analysis.studies.study import study
     from tandemlift.analysis.studies.table import Study, load_study
     from tandemlift.analysis.studies.tuning.tune import train, tune
     from tandemlift.apps.export.logs import read_log
-    from tandemlift.apps.export.registration import register_environments
     from tandemlift.apps.live.notebook_page import page
     from tandemlift.apps.teaching.grading import grade
     from tandemlift.codegen.known_flights import fly
@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from tandemlift.simulation.simulation import Simulation
 
 _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
-    "Block": "analysis.studies.execution.block",
+    "Block": "analysis.learning.block",
     "Flight": "flight.record",
     "FlightWarning": "core.errors",
     "InputError": "core.errors",
@@ -74,7 +74,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "plot": "pictures.figures.registry",
     "plug": "core.plugs",
     "read_log": "apps.export.logs",
-    "register_environments": "apps.export.registration",
+    "register_environments": "analysis.learning.registration",
     "shadow": "analysis.identification.shadow",
     "study": "analysis.studies.study",
     "torch_step": "analysis.linearization.differentiable_step",

@@ -17,8 +17,8 @@ from listings import LAW
 import tandemlift as tl
 from tandemlift.codegen.mission_module import TARGETS, compile_mission, module_of
 from tandemlift.codegen.module_text import write_flight_loop, write_ramp
+from tandemlift.codegen.wasm_linker import LinkError, Reader, linked, signed, unsigned
 from tandemlift.compiler.machine_code import machine
-from tandemlift.compiler.machine_code.wasm_linker import LinkError, Reader, linked, signed, unsigned
 from tandemlift.compiler.tracer import Module
 from tandemlift.parts.controllers import load_controller
 from tandemlift.simulation.parameter_changes import ParameterRamp, ScheduledChange

@@ -16,7 +16,7 @@ from tandemlift.missions import check, format_toml, load_plugin, mission_from_te
 from tandemlift.parts.estimation.wrench.momentum import MomentumObserver
 from tandemlift.parts.estimation.wrench.observation import observe
 from tandemlift.parts.estimation.wrench.start_observer import OwnObserver
-from tandemlift.parts.interaction.admittance import HardGate, gate
+from tandemlift.parts.guidance.admittance import HardGate, gate
 from tandemlift.parts.mechanics.rigid_body import RigidBody, motion
 
 GATE = '''
@@ -28,7 +28,7 @@ from tandemlift.core.algebra import absolute, where
 from tandemlift.core.law import elementwise
 from tandemlift.core.plugs import plug
 from tandemlift.core.vector import Vec3, vec3
-from tandemlift.parts.interaction.admittance import gate
+from tandemlift.parts.guidance.admittance import gate
 
 
 class Times(NamedTuple):

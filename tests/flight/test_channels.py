@@ -11,8 +11,8 @@ from tandemlift.core.vector import Absent
 from tandemlift.flight.channels import CHANNELS, DERIVED, STAMP
 from tandemlift.flight.channels import GROUPS as CHANNEL_GROUPS
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceChannels
+from tandemlift.parts.guidance.policy import PolicyChannels
 from tandemlift.parts.guidance.supervision import SupervisionChannels
-from tandemlift.parts.interaction.policy import PolicyChannels
 from tandemlift.simulation.loop.estimate_channels import ContactEstimateChannels, EstimatedChannels, MeasuredChannels
 from tandemlift.simulation.loop.log_sample import (
     ActuatorChannels,

@@ -11,7 +11,7 @@ import tandemlift as tl
 from tandemlift.core.types import unflat
 from tandemlift.missions import check, tables_of
 from tandemlift.parts.contact.corridor import CorridorTable, wall_tables
-from tandemlift.parts.interaction.person import PATH_LEG
+from tandemlift.parts.person.person import PATH_LEG
 from tandemlift.simulation.preparation.assemble import assemble
 
 LINE = ((0.0, 0.0), (5.0, 0.0), (10.0, 3.0), (15.0, 0.0))

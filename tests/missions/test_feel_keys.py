@@ -6,7 +6,7 @@ import pytest
 import tandemlift as tl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.missions import changed, check, tables_of
-from tandemlift.parts.interaction.admittance import FEELS
+from tandemlift.parts.guidance.admittance import FEELS
 from tandemlift.simulation.caller_values import portable_mission
 
 

@@ -14,14 +14,14 @@ from tandemlift.missions import load_mission
 from tandemlift.missions.checks import mission_checks
 from tandemlift.missions.flight_checks import CHECKS, flight_checks
 from tandemlift.missions.outcomes import promise_of
-from tandemlift.parts.interaction.passage import least_room, places_of
+from tandemlift.parts.flight_checks.authority import CONTROL
+from tandemlift.parts.flight_checks.hover_loads import SIGMAS, WindOnParts, loads_of
+from tandemlift.parts.flight_checks.schedule_checks import Schedule
+from tandemlift.parts.flight_checks.sensing_checks import noise_of, push_bandwidths
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
 from tandemlift.parts.mechanics.wind import air_loads
-from tandemlift.parts.pilot.schedule_checks import Schedule
-from tandemlift.parts.pilot.sensing_checks import noise_of, push_bandwidths
-from tandemlift.parts.rotors.authority import CONTROL
-from tandemlift.parts.rotors.hover_loads import SIGMAS, WindOnParts, loads_of
+from tandemlift.parts.person.passage import least_room, places_of
 from tandemlift.simulation.preparation.assemble import assemble
 
 

@@ -1,7 +1,7 @@
 """Requests and failing sensors in a mission: what is taken, and how it starts."""
 
 from tandemlift.missions import load_mission
-from tandemlift.parts.interaction.requests import start_requests
+from tandemlift.parts.guidance.requests import start_requests
 
 BY_HAND = {"pilot.guidance": "interactive"}
 FROZEN = {"sensor": "gyroscope", "kind": "frozen", "time": 5.0}

@@ -10,26 +10,19 @@ import pytest
 from law_values import flat, rebuilt, record
 from machine_code import answers
 
+from tandemlift.core import low_pass
 from tandemlift.core.vector import Absent, Mat3, Quat, Vec3, each, outer
-from tandemlift.parts.controllers import attitude_reference, equations_of_motion, sliding_surface
-from tandemlift.parts.estimation.wrench import (
-    delay,
-    extended_kalman,
-    fused,
-    hybrid,
-    kalman,
-    momentum,
-    wind_compensation,
-)
+from tandemlift.parts.controllers import attitude_reference, sliding_surface
+from tandemlift.parts.estimation import wind_compensation
+from tandemlift.parts.estimation.wrench import delay, extended_kalman, fused, hybrid, kalman, momentum
 from tandemlift.parts.estimation.wrench.observation import ExternalWrench, NominalBody, Observation, observe
-from tandemlift.parts.guidance import guidance
-from tandemlift.parts.interaction import policy
-from tandemlift.parts.mechanics import low_pass, parts, rotation
+from tandemlift.parts.guidance import guidance, policy
+from tandemlift.parts.mechanics import equations_of_motion, parts, rotation
 from tandemlift.parts.mechanics.rigid_body import RigidBody, State, Wrench
 from tandemlift.parts.pilot import excitation, rotor_lead
+from tandemlift.parts.rotor_loss import decision as rotor_loss_decision
+from tandemlift.parts.rotor_loss import detection as rotor_loss_detection
 from tandemlift.parts.rotors import allocation
-from tandemlift.parts.rotors import decision as rotor_loss_decision
-from tandemlift.parts.rotors import detection as rotor_loss_detection
 
 V = Vec3(0.0, 0.0, 0.0)
 M = Mat3(V, V, V)

@@ -24,7 +24,7 @@ KEY: Edits = {
         (SPIN_UP, NEW_KEY + SPIN_UP),
         ("vec3(c.max_jerk), c.braking_gain)", "vec3(c.max_jerk), c.braking_gain, c.max_force)"),
     ],
-    "parts/interaction/compliance.py": [
+    "parts/guidance/compliance.py": [
         ("    jerk: Vec3\n    braking_gain: Number\n", "    jerk: Vec3\n    braking_gain: Number\n    force: Number\n"),
         ("with_policy(eased, output.value)", "with_policy(eased, clip(output.value, -k.limits.force, k.limits.force))"),
     ],
@@ -86,7 +86,7 @@ ANCHORED = "@elementwise\ndef anchored"
 CHOICE = '"hard": "'
 CHECKS = "def gate_checks("
 LAW: Edits = {
-    "parts/interaction/admittance.py": [
+    "parts/guidance/admittance.py": [
         (ADMITTANCE, GATE + ADMITTANCE),
         (ANCHORED, SMOOTH + ANCHORED),
         ('Literal["hard", "soft"]', 'Literal["hard", "soft", "smooth"]'),

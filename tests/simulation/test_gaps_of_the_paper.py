@@ -10,10 +10,10 @@ from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
+from tandemlift.core.trajectories import Trajectory
 from tandemlift.core.vector import ZERO, Quat, Vec3
 from tandemlift.parts.controllers.nftsmc import position_law
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.mechanics.trajectories import Trajectory
 from tandemlift.simulation.preparation.assemble import assemble
 
 MASS, LENGTH, RADIUS = 0.5, 2.0, 0.05  # of the payload; Table II

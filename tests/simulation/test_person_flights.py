@@ -8,7 +8,7 @@ import pytest
 import tandemlift as tl
 from tandemlift.core.vector import vec3
 from tandemlift.missions import built_in
-from tandemlift.parts.interaction.person import PersonView
+from tandemlift.parts.person.person import PersonView
 from tandemlift.pictures.drawing.clearances import clearances
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import leaf_offset

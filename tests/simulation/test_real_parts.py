@@ -10,9 +10,9 @@ from storm import COMMAND, DT, MOTION, UNIT, storm, storms
 import tandemlift as tl
 from tandemlift.core.types import leaves, unflat
 from tandemlift.core.vector import ZERO
+from tandemlift.parts.contact.wall_geometry import WALL
 from tandemlift.parts.contact.walls import nearest_with
 from tandemlift.parts.mechanics.push import PushSamples, push_at
-from tandemlift.parts.mechanics.wall_geometry import WALL
 from tandemlift.parts.mechanics.wind import gust_velocity
 from tandemlift.parts.pilot.pilot import with_allocation
 from tandemlift.parts.rotors.allocation import AllocationState

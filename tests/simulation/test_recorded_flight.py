@@ -9,7 +9,7 @@ from tandemlift.apps.cli.main import cli
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.apps.live.session.saving import save_in_process
 from tandemlift.core.vector import Vec3
-from tandemlift.parts.interaction.virtual_hand import HAND_RELEASED
+from tandemlift.parts.person.virtual_hand import HAND_RELEASED
 from tandemlift.simulation.recorded_flight import FLIGHT, HAND, MISSION, RecordedFlight
 
 GUIDED = {

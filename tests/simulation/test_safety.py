@@ -14,7 +14,7 @@ from tandemlift.core.vector import ZERO, Absent
 from tandemlift.missions.key_descriptions import sections
 from tandemlift.parts.estimation.disturbance_observer import NONE
 from tandemlift.parts.guidance.guidance import PilotInput, checked_input, guide
-from tandemlift.parts.interaction.requests import NO_REQUEST, UNKNOWN_STATUS
+from tandemlift.parts.guidance.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.simulation.preparation.assemble import assemble
 
 AT, STANDS = 8.5, 0.03  # s, when sensors fail; m, height of the standing vehicle

@@ -10,11 +10,11 @@ from scipy.optimize import lsq_linear
 
 from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
 from tandemlift.engines.models.links import parts_layout_from
+from tandemlift.parts.contact.wall_geometry import Wall, wall
 from tandemlift.parts.contact.walls import Walls, near_wall_loads, nearest_with, no_walls_near, walls
 from tandemlift.parts.mechanics.joint_loads import PartLoads, PartsLayout
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.mechanics.wall_geometry import Wall, wall
 
 LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
 LENGTH, RADIUS, GUARD = 2.0, 0.05, 0.375

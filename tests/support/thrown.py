@@ -20,11 +20,11 @@ from tandemlift.engines.compiled_contact import CompiledPlant, hull_contact_with
 from tandemlift.engines.touches import wall_contact_with
 from tandemlift.missions import Mission
 from tandemlift.parts.contact.feet import start_foot_grip
+from tandemlift.parts.contact.wall_geometry import wall
 from tandemlift.parts.contact.walls import nearest_with, no_walls_near
 from tandemlift.parts.mechanics.push import CentralPush, PushSamples
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.mechanics.wall_geometry import wall
 
 NO_PUSH = PushSamples(*[CentralPush(ZERO)] * 3)
 START = State(vec3([0.0, 0.0, 2.0]), ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO)

@@ -1,7 +1,7 @@
 """The tables of the benchmark's baselines, as the package has them: an entry is a column, so that a page holds all."""
 
 from tandemlift.analysis.studies.benchmark import shipped_tables
-from tandemlift.analysis.studies.design.benchmark_entry import Kind
+from tandemlift.analysis.studies.benchmark_entry import Kind
 
 
 def controllers() -> str:

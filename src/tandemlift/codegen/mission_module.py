@@ -17,15 +17,15 @@ from tandemlift.codegen.fmu_binaries import HOST
 from tandemlift.codegen.module_text import ValuesFunction, write_flight_loop, write_ramp, write_values_function
 from tandemlift.codegen.number_facts import facts_of
 from tandemlift.codegen.prepare import write_prepare
+from tandemlift.codegen.wasm_linker import linked
 from tandemlift.compiler.machine_code import store
 from tandemlift.compiler.machine_code.code import Written
 from tandemlift.compiler.machine_code.machine import MACHINES, Machine, machine_named, object_code
-from tandemlift.compiler.machine_code.wasm_linker import linked
 from tandemlift.core.errors import InputError
+from tandemlift.core.file_set import write_files
 from tandemlift.core.files import __version__
 from tandemlift.core.types import flat, leaves
 from tandemlift.flight.channels import channel_of
-from tandemlift.flight.file_set import write_files
 from tandemlift.missions import Mission, MissionLike, mission_of, tables_of
 from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.parameter_changes import hand_place

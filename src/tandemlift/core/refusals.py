@@ -1,6 +1,6 @@
 """The reasons for which a pilot refuses to lift or land, or does not follow a push, each with a remedy.
 
-`parts.pilot.refusals` computes the number of the reason and the numbers in its text. The texts come from here, so
+`simulation.refusals` computes the number of the reason and the numbers in its text. The texts come from here, so
 Python, the live page and the ROS node show the same.
 """
 
@@ -39,7 +39,7 @@ class RefusalReason(NamedTuple):
     """A reason.
 
     Attributes:
-        key: its name in `parts.pilot.refusals`.
+        key: its name in `simulation.refusals`.
         text: a clause; {value} and {limit} are numbers, {alarm} is the text of the alarm whose number the value is.
         advice: what to do.
     """

@@ -17,8 +17,8 @@ from tandemlift.core.vector import Absent, vec3
 from tandemlift.engines.models.mujoco_bodies import model_of
 from tandemlift.engines.models.mujoco_contact import touching_parts
 from tandemlift.engines.models.mujoco_import import mujoco
-from tandemlift.engines.models.mujoco_step import FUNCTIONS, SLACK, code_of, rows_of
 from tandemlift.engines.models.scene import Scene
+from tandemlift.engines.mujoco_step import FUNCTIONS, SLACK, code_of, rows_of
 from tandemlift.parts.contact.touches import start_touches
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
 from tandemlift.parts.mechanics.vehicle import Vehicle

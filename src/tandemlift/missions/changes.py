@@ -16,12 +16,12 @@ from tandemlift.core.errors import InputError, shown
 from tandemlift.core.files import parts_of
 from tandemlift.core.keys import PerAxis
 from tandemlift.missions.key_descriptions import Model, table_in
-from tandemlift.missions.keys.places import Place as Place
-from tandemlift.missions.keys.places import Tables as Tables
-from tandemlift.missions.keys.places import places_in as places_in
 from tandemlift.missions.mission import Mission
+from tandemlift.missions.places import Place as Place
+from tandemlift.missions.places import Tables as Tables
+from tandemlift.missions.places import places_in as places_in
 from tandemlift.parts.controllers import CONTROLLERS
-from tandemlift.parts.interaction.admittance import with_feel
+from tandemlift.parts.guidance.admittance import with_feel
 
 
 def _with(at: Any, parts: list[str], value: object, key: str) -> Any:

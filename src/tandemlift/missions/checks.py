@@ -12,6 +12,7 @@ import numpy as np
 from tandemlift.core.errors import CheckResult, InputError, refused
 from tandemlift.core.phases import HARD
 from tandemlift.missions import outcomes
+from tandemlift.missions.check_results import check_lines as check_lines
 from tandemlift.missions.flight_checks import flight_checks
 from tandemlift.missions.mission import Mission, MissionTable
 from tandemlift.missions.recording import read_recording
@@ -20,22 +21,21 @@ from tandemlift.parts.contact.corridor import wall_checks, wall_warnings
 from tandemlift.parts.estimation import estimator_table as estimator
 from tandemlift.parts.estimation.contact_table import contact_checks
 from tandemlift.parts.estimation.disturbance_observer import observer_checks
+from tandemlift.parts.flight_checks import authority
+from tandemlift.parts.flight_checks.schedule_checks import phase_checks, phase_warnings, wind_warnings
 from tandemlift.parts.guidance import supervision_table as supervision
+from tandemlift.parts.guidance.admittance import admittance_checks, gate_checks
 from tandemlift.parts.guidance.guidance import reading_checks
+from tandemlift.parts.guidance.policy import policy_checks
+from tandemlift.parts.guidance.requests import request_checks
 from tandemlift.parts.guidance.yaw_compliance import yaw_checks
-from tandemlift.parts.interaction.admittance import admittance_checks, gate_checks
-from tandemlift.parts.interaction.person_table import PersonTable, person_checks, person_warnings
-from tandemlift.parts.interaction.policy import policy_checks
-from tandemlift.parts.interaction.requests import request_checks
+from tandemlift.parts.mechanics.push_checks import on_vehicle_checks
 from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle_checks import vehicle_checks
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
-from tandemlift.parts.pilot.check_results import check_lines as check_lines
+from tandemlift.parts.person.person_table import PersonTable, person_checks, person_warnings
 from tandemlift.parts.pilot.excitation import time_checks as excitation_time_checks
-from tandemlift.parts.pilot.push_checks import on_vehicle_checks
-from tandemlift.parts.pilot.schedule_checks import phase_checks, phase_warnings, wind_warnings
-from tandemlift.parts.pilot.vehicle_checks import vehicle_checks
-from tandemlift.parts.rotors import authority
-from tandemlift.parts.rotors.detection_table import detection_checks
+from tandemlift.parts.rotor_loss.detection_table import detection_checks
 from tandemlift.parts.rotors.rotor_faults import fault_checks, fault_warnings
 from tandemlift.parts.rotors.rotors import ActuatorsTable
 from tandemlift.parts.sensors import sensor_checks as sensors

@@ -12,15 +12,15 @@ from tandemlift.core.errors import CLOSE, CheckResult, noted
 from tandemlift.missions.mission import Mission
 from tandemlift.missions.outcomes import promise_of
 from tandemlift.parts.controllers.interface import tilt_limit_of
-from tandemlift.parts.interaction.passage import passage_checks, way_checks
-from tandemlift.parts.pilot import schedule_checks
-from tandemlift.parts.pilot.controller_checks import gain_checks, offset_checks, start_checks
+from tandemlift.parts.flight_checks import schedule_checks
+from tandemlift.parts.flight_checks.authority import authority_checks
+from tandemlift.parts.flight_checks.controller_checks import gain_checks, offset_checks, start_checks
+from tandemlift.parts.flight_checks.hover_loads import Loads, WindOnParts, loads_of
+from tandemlift.parts.flight_checks.loop_checks import loop_checks
+from tandemlift.parts.flight_checks.sensing_checks import sensing_checks
+from tandemlift.parts.mechanics.push_checks import point_checks, push_checks
+from tandemlift.parts.person.passage import passage_checks, way_checks
 from tandemlift.parts.pilot.excitation import excitation_checks
-from tandemlift.parts.pilot.loop_checks import loop_checks
-from tandemlift.parts.pilot.push_checks import point_checks, push_checks
-from tandemlift.parts.pilot.sensing_checks import sensing_checks
-from tandemlift.parts.rotors.authority import authority_checks
-from tandemlift.parts.rotors.hover_loads import Loads, WindOnParts, loads_of
 
 
 class FlightCheck(NamedTuple):

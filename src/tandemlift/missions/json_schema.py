@@ -17,7 +17,7 @@ from tandemlift.core.plugs import Chosen
 from tandemlift.missions.key_descriptions import EXTENDS, PLUGINS, Model, bounds, compact, table_in, text_of
 from tandemlift.missions.mission import Mission
 from tandemlift.parts.controllers import CONTROLLERS, ControllerTable
-from tandemlift.parts.interaction.admittance import AdmittanceTable
+from tandemlift.parts.guidance.admittance import AdmittanceTable
 
 Schema = dict[str, Any]
 KEYWORDS = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}

@@ -16,6 +16,7 @@ from pydantic import AfterValidator, Field, PrivateAttr, SerializeAsAny, Validat
 from tandemlift.core.errors import InputError
 from tandemlift.core.keys import NonNegative, Positive, Table, divisor, key, must
 from tandemlift.core.plugs import PluginText
+from tandemlift.core.trajectories import PhasesTable
 from tandemlift.missions.outcomes import CrashTable, FindingsTable, OutcomeTable, PromiseTable
 from tandemlift.parts.contact.corridor import CorridorTable, WallTable, nearest_wall
 from tandemlift.parts.contact.standing import GroundTable
@@ -23,22 +24,21 @@ from tandemlift.parts.controllers import ControllerTable
 from tandemlift.parts.estimation.contact_table import ContactTable
 from tandemlift.parts.estimation.disturbance_observer import ObserverTable
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
+from tandemlift.parts.flight_checks.loop_checks import ControlLoop, push_feedback, reading_delays
+from tandemlift.parts.guidance.admittance import AdmittanceTable, with_feel
 from tandemlift.parts.guidance.compliance_table import ComplianceTable
 from tandemlift.parts.guidance.guidance import PilotTable
+from tandemlift.parts.guidance.requests import RequestTable
 from tandemlift.parts.guidance.supervision_table import SupervisionTable
-from tandemlift.parts.interaction.admittance import AdmittanceTable, with_feel
-from tandemlift.parts.interaction.person_table import PersonTable
-from tandemlift.parts.interaction.requests import RequestTable
 from tandemlift.parts.mechanics.push import PushTable
 from tandemlift.parts.mechanics.rigid_body import InitialTable
-from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable, PlantTable, VehicleTable
 from tandemlift.parts.mechanics.wind import WindTable
+from tandemlift.parts.person.person_table import PersonTable
 from tandemlift.parts.pilot.excitation import ExcitationTable
-from tandemlift.parts.pilot.loop_checks import ControlLoop, push_feedback, reading_delays
+from tandemlift.parts.rotor_loss.detection_table import DetectionTable
 from tandemlift.parts.rotors.allocation import AllocationTable
-from tandemlift.parts.rotors.detection_table import DetectionTable
 from tandemlift.parts.rotors.hover import HoverFacts
 from tandemlift.parts.rotors.rotor_faults import FaultTable
 from tandemlift.parts.rotors.rotors import ActuatorsTable

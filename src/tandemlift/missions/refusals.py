@@ -16,7 +16,7 @@ from tandemlift.core.keys import description_of, is_number
 from tandemlift.core.plugs import Chosen
 from tandemlift.missions.changes import MISSING, Place, value_at
 from tandemlift.missions.key_descriptions import Model, allowed, plain, table_in
-from tandemlift.missions.keys.renamed import present_name
+from tandemlift.missions.renamed import present_name
 
 MOST = 64  # problems with a sentence, more than are told: those of a file of garbage would take seconds
 BY_ANNOTATION = (  # prefixes of the kinds of error for which the annotation has the allowed values

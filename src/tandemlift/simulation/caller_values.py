@@ -13,7 +13,7 @@ from tandemlift.core.errors import InputError, shown
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, changed
 from tandemlift.parts.controllers import control
-from tandemlift.parts.interaction.caller_inputs import CallerInput
+from tandemlift.simulation.loop.caller_inputs import CallerInput
 from tandemlift.simulation.pilot_api import pilot_at_start
 from tandemlift.simulation.preparation import leaf_offset
 

@@ -8,12 +8,12 @@ from collections.abc import Iterator, Sequence
 from tandemlift.core.faults import ALARM_TEXTS, CHECKS
 from tandemlift.core.findings import Finding, FindingName, finding
 from tandemlift.core.phases import IDLE, LAND, LIFT, REASONS, STOPPED
+from tandemlift.core.trajectories import PhasesTable
 from tandemlift.core.vector import Absent, dot, total
 from tandemlift.missions.outcomes import FindingsTable, Promise, promise_of
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceState
+from tandemlift.parts.guidance.requests import RequestTable
 from tandemlift.parts.guidance.supervision import ALARM, CONTACT, PHASE, SLOTS, SupervisionState
-from tandemlift.parts.interaction.requests import RequestTable
-from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.simulation.loop.detectors import Detectors
 from tandemlift.simulation.loop.excess import Excess
 from tandemlift.simulation.loop.oscillation import Swings

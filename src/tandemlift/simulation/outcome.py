@@ -12,15 +12,15 @@ from typing import NamedTuple
 from tandemlift.core.algebra import atan2, chosen, maximum, sqrt, where
 from tandemlift.core.law import law
 from tandemlift.core.phases import ENDING_OF, FAR, LEFT_FENCE, STRUCK, TURNED_OVER
+from tandemlift.core.trajectories import PhasesTable
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Absent, Vec3, dot
 from tandemlift.flight.record import Ending
 from tandemlift.parts.guidance.compliance_table import ComplianceTable
 from tandemlift.parts.guidance.fault_detection import distance_outside
-from tandemlift.parts.interaction.requests import RequestTable
+from tandemlift.parts.guidance.requests import RequestTable
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import body_z_axis
-from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.simulation.loop.ending import CrashLimits, CrashMemory, OuterFence, Strike
 from tandemlift.simulation.loop.log_sample import Sample
 from tandemlift.simulation.loop.step import FlightState

@@ -18,7 +18,7 @@ from tandemlift.core.types import Array, flat, leaves
 from tandemlift.core.vector import Absent, layout
 from tandemlift.missions import changed, idle_keys, sentences
 from tandemlift.missions.recording import read_recording
-from tandemlift.parts.interaction.virtual_hand import HAND_RELEASED
+from tandemlift.parts.person.virtual_hand import HAND_RELEASED
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import leaf_offset
 

@@ -15,15 +15,15 @@ from tandemlift.core.types import Array, flat, leaves, unflat
 from tandemlift.core.vector import ZERO, Absent, Quat
 from tandemlift.missions import Mission, MissionLike, check_double, mission_of
 from tandemlift.parts.controllers import control
-from tandemlift.parts.interaction.requests import NO_REQUEST, UNKNOWN_STATUS
+from tandemlift.parts.guidance.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.pilot.pilot import PilotInput
-from tandemlift.parts.pilot.refusals import refusals_of
 from tandemlift.simulation.preparation.memory import aligned
 from tandemlift.simulation.preparation.pilot_sampling import MEASURED, PilotData, pilot_code
 from tandemlift.simulation.preparation.start_pilot import start_pilot
 from tandemlift.simulation.preparation.traced_assembly import assembled_by_graph
+from tandemlift.simulation.refusals import refusals_of
 
 INPUT = PilotInput(
     State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO), ZERO, ZERO, 0.0, Absent(), NO_REQUEST, UNKNOWN_STATUS

@@ -17,8 +17,8 @@ from tandemlift.engines.registry import engine_named
 from tandemlift.flight.record import LATE
 from tandemlift.missions import Mission, check_double
 from tandemlift.parts.controllers import NoMemory, control
-from tandemlift.parts.interaction.caller_inputs import CallerInput, OutsidePush
-from tandemlift.parts.interaction.requests import ReferenceVelocity
+from tandemlift.parts.guidance.requests import ReferenceVelocity
+from tandemlift.simulation.loop.caller_inputs import CallerInput, OutsidePush
 from tandemlift.simulation.loop.log_sample import Sample
 from tandemlift.simulation.preparation import (
     LANES,
@@ -44,7 +44,7 @@ class FlightPlan:
     Args:
         mission: from `load_mission`.
         engine: name of the body's engine.
-        interactive: whether the caller of a step has inputs (`parts.interaction.caller_inputs`).
+        interactive: whether the caller of a step has inputs (`simulation.loop.caller_inputs`).
         in_block: whether it is flown in a block, which alone may be in single precision.
 
     Raises:

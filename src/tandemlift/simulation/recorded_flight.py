@@ -22,7 +22,7 @@ from tandemlift.engines.registry import EngineBody, EngineLost
 from tandemlift.flight.record import Ending, Flight, interruption
 from tandemlift.missions import Mission, changed, format_toml, load_mission, tables_of
 from tandemlift.missions.recording import HAND_FILE, MISSION_FILE, WIDTH, Recording, write_recording
-from tandemlift.parts.interaction.virtual_hand import HAND_RELEASED, VirtualHandInput
+from tandemlift.parts.person.virtual_hand import HAND_RELEASED, VirtualHandInput
 from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.outcome import ending_of, place_of

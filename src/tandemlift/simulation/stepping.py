@@ -20,12 +20,12 @@ from tandemlift.engines.registry import EngineBody, EngineLost, PushedBody, Touc
 from tandemlift.flight.record import interruption
 from tandemlift.parts.controllers import control
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.pilot.refusals import refusals_of
 from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.loop.step import FlightState
 from tandemlift.simulation.parameter_changes import ParameterChanges, ScheduledChange, hand_place
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import GIVEN, FlightMemory, leaf_offset, machine_of
+from tandemlift.simulation.refusals import refusals_of
 from tandemlift.simulation.results import RawResult, take_metrics
 
 PROGRESS_EVERY = 1000  # steps
@@ -116,7 +116,7 @@ class Stepper:
         self.row[:] = row
 
     def move_hand(self, hand: np.ndarray) -> None:
-        """Move the virtual hand: the numbers of its input, see `parts.interaction.virtual_hand`."""
+        """Move the virtual hand: the numbers of its input, see `parts.person.virtual_hand`."""
         self.a[self.hand] = hand
         self.memory.put("fresh", 1)
 
@@ -135,7 +135,7 @@ class Stepper:
         Args:
             k: the step.
             final: whether only the sample is taken; a body in another engine moves nevertheless.
-            external: the numbers of a `parts.interaction.caller_inputs.CallerInput`, if the plan is interactive.
+            external: the numbers of a `simulation.loop.caller_inputs.CallerInput`, if the plan is interactive.
 
         Raises:
             EngineLost: the engine took no step; the flight's numbers are those before it.

@@ -19,9 +19,9 @@ from scipy.stats import beta
 import tandemlift as tl
 from tandemlift.analysis.certification import linear
 from tandemlift.analysis.certification.certificate import TIERS, Certificate
+from tandemlift.analysis.certification.claims import Claim, FlownLimit, Tier
 from tandemlift.analysis.certification.flown import with_limits
 from tandemlift.analysis.certification.statistics import _claims
-from tandemlift.analysis.linearization.claims import Claim, FlownLimit, Tier
 from tandemlift.analysis.linearization.loop_margins import largest
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution.random_flights import RandomFlight, random_plan, what_is_drawn

@@ -10,6 +10,7 @@ import tandemlift as tl
 from tandemlift.analysis.certification import admittance_map as maps
 from tandemlift.analysis.certification import felt_admittance, flown
 from tandemlift.analysis.certification.admittance_map import acceleration_per_force, admittance_family, family_limit
+from tandemlift.analysis.certification.claims import Claim, Tier
 from tandemlift.analysis.certification.felt_admittance import (
     LARGEST,
     ArmImpedance,
@@ -20,7 +21,6 @@ from tandemlift.analysis.certification.felt_admittance import (
 from tandemlift.analysis.certification.flown import LimitTrial, flown_limit
 from tandemlift.analysis.certification.parameters import ARM
 from tandemlift.analysis.certification.person import ArmBox, leading_impedance
-from tandemlift.analysis.linearization.claims import Claim, Tier
 from tandemlift.core.errors import InputError
 from tandemlift.missions import load_mission
 

@@ -8,6 +8,7 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.analysis.certification import shakes
+from tandemlift.analysis.certification.claims import Tier
 from tandemlift.analysis.certification.shakes import (
     BEYOND,
     FREQUENCIES,
@@ -30,11 +31,10 @@ from tandemlift.analysis.certification.shakes import (
     shaken,
     shaken_hands,
 )
-from tandemlift.analysis.linearization.claims import Tier
 from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.missions import load_mission
+from tandemlift.parts.flight_checks import authority
 from tandemlift.parts.mechanics.push import GaussianPush, gaussian_force
-from tandemlift.parts.rotors import authority
 from tandemlift.pictures.report.study.certificate_figures import draw_shakes
 
 CALM = ShakenMotion(0.0, 0.0, 0.0)

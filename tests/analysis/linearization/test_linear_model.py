@@ -85,7 +85,7 @@ def test_a_gate_on_its_edge_is_reported_with_its_law():
     mission = tl.load_mission("paper", {"pushes": [], "admittance.threshold": 0.0, "admittance.gate": "hard"})
     (kink,) = tl.linearize(mission, 9.5).kinks
     assert (kink.law, kink.distance) == ("hard_threshold", 0.0)
-    assert kink.file.startswith("parts/interaction/admittance.py, line ")
+    assert kink.file.startswith("parts/guidance/admittance.py, line ")
     assert tl.linearize(tl.load_mission("paper", {"pushes": []}), 9.5).kinks == ()
 
 

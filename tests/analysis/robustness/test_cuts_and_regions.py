@@ -12,9 +12,9 @@ from tandemlift.analysis.robustness.cut_loop import DISTURBED, CutLoop, parts_of
 from tandemlift.analysis.robustness.intervals import bounds
 from tandemlift.analysis.robustness.nonlinear import OffsetBounds, OffsetFlights, _offset_claims, sectors_of
 from tandemlift.analysis.robustness.sector_bound import LoopPart, Plant, Sectors, Start, response, without_resting_modes
+from tandemlift.analysis.robustness.thrust_bounds import RotorAxes
 from tandemlift.core.algebra import sin, tan
 from tandemlift.core.errors import InputError
-from tandemlift.parts.pilot.thrust_bounds import RotorAxes
 
 STEP = 1e-3
 

@@ -11,9 +11,9 @@ import pytest
 
 from tandemlift.analysis.robustness.intervals import Interval, bounds
 from tandemlift.analysis.robustness.nonlinear import box_of
+from tandemlift.analysis.robustness.thrust_bounds import commanded_thrusts
 from tandemlift.core import algebra
 from tandemlift.missions import load_mission
-from tandemlift.parts.pilot.thrust_bounds import commanded_thrusts
 from tandemlift.simulation.pilot_api import pilot_at_start
 
 mpmath = pytest.importorskip("mpmath")

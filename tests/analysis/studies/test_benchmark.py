@@ -14,8 +14,8 @@ from repository import ROOT
 
 import tandemlift as tl
 from tandemlift.analysis.studies import benchmark
-from tandemlift.analysis.studies.design.benchmark_columns import TABLES, csv_of, json_of, lines_of, rms
-from tandemlift.analysis.studies.design.benchmark_entry import (
+from tandemlift.analysis.studies.benchmark_columns import TABLES, csv_of, json_of, lines_of, rms
+from tandemlift.analysis.studies.benchmark_entry import (
     KINDS,
     BenchmarkEntry,
     baselines,

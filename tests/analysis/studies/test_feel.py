@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 import tandemlift as tl
 from tandemlift.analysis.studies.closed_form import AxisFeel, axes_of
 from tandemlift.analysis.studies.feel import feel_checks
-from tandemlift.parts.interaction.admittance import FEELS
+from tandemlift.parts.guidance.admittance import FEELS
 
 
 @pytest.mark.parametrize("seed", range(2))

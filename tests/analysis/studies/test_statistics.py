@@ -7,7 +7,7 @@ import pytest
 from scipy import stats
 
 import tandemlift as tl
-from tandemlift.analysis.studies.design.statistics import quantile, share, upper_bound
+from tandemlift.analysis.studies.execution.statistics import quantile, share, upper_bound
 
 
 @pytest.mark.parametrize(

@@ -10,8 +10,8 @@ from scipy.io import loadmat
 from verbs import verb
 
 from tandemlift.core.errors import InputError
-from tandemlift.pictures.report.study import linear_model_figure
-from tandemlift.pictures.report.study.linear_model_figure import Response
+from tandemlift.pictures.drawing import linear_model_figure
+from tandemlift.pictures.drawing.linear_model_figure import Response
 
 call = partial(verb, "linearize")
 

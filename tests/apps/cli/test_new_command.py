@@ -9,7 +9,7 @@ from click.testing import CliRunner
 
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli
-from tandemlift.apps.export.new_mission import quadrotor_models
+from tandemlift.apps.cli.new_mission import quadrotor_models
 from tandemlift.core.errors import FAILS, REFUSED
 
 MODELS = ["crazyflie", "hummingbird", "iris", "x500"]

@@ -4,8 +4,8 @@ import threading
 
 import pytest
 
-from tandemlift.apps.live import notices
-from tandemlift.apps.live.notices import CompileNotices
+from tandemlift.apps.cli import notices
+from tandemlift.apps.cli.notices import CompileNotices
 from tandemlift.core.progress import Compiled, publish, watching
 
 LOOP = Compiled("flight loop", 0.5, is_made=True)
@@ -14,7 +14,7 @@ LOOP = Compiled("flight loop", 0.5, is_made=True)
 @pytest.fixture
 def clock(monkeypatch):
     now = [0.0]
-    monkeypatch.setattr("tandemlift.apps.live.notices.time.perf_counter", lambda: now[0])
+    monkeypatch.setattr("tandemlift.apps.cli.notices.time.perf_counter", lambda: now[0])
     return now
 
 

@@ -158,7 +158,7 @@ def test_processes_fly_a_study_of_many_rows_one_for_each_processor_that_has_a_ch
 )
 def test_what_cannot_be_reported_is_refused_before_any_row_is_flown(words, why, dry, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("tandemlift.analysis.studies.estimate.fly_chunk", lambda *_: pytest.fail("flown"))
+    monkeypatch.setattr("tandemlift.analysis.studies.execution.estimate.fly_chunk", lambda *_: pytest.fail("flown"))
     (tmp_path / "one.toml").write_text('[study]\nname = "one"\nmissions = ["hover"]\n', "utf-8")
     if not words:
         monkeypatch.setitem(sys.modules, "pyarrow", None)

@@ -311,7 +311,7 @@ def test_the_address_is_printed_and_ctrl_c_ends_it_well(verb, flight, page, tmp_
         from tandemlift.apps.live import page_files as pages
         from standin import StandIn
         pages.PAGE_FOLDER = pathlib.Path({str(page)!r})
-        sys.modules["tandemlift.apps.live.two_flights"] = flights = types.ModuleType("two_flights")
+        sys.modules["tandemlift.apps.live.session.two_flights"] = flights = types.ModuleType("two_flights")
         flights.TwoFlights = lambda mission, engine, out: StandIn(mission.mission.name)
         main()
     """

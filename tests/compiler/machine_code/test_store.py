@@ -26,7 +26,7 @@ from tandemlift.core import law
 from tandemlift.core.caching import LastUsed
 from tandemlift.core.plugs import plug
 from tandemlift.core.vector import ZERO, Vec3
-from tandemlift.parts.interaction.admittance import gate
+from tandemlift.parts.guidance.admittance import gate
 from tandemlift.simulation import plan
 
 CHANGES = {"mission.duration": 0.5}

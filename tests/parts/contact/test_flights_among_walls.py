@@ -18,11 +18,11 @@ from tandemlift.core.law import law
 from tandemlift.core.vector import ZERO, Quat, Vec3, dot, vec3
 from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.parts.contact.clearance import clearance, may_touch_wall
+from tandemlift.parts.contact.wall_geometry import WALL, wall
 from tandemlift.parts.contact.walls import Walls, near_wall_loads, nearest_with, no_walls_near
 from tandemlift.parts.mechanics.joint_loads import PartsLayout, resultant
 from tandemlift.parts.mechanics.push import CentralPush
 from tandemlift.parts.mechanics.rigid_body import RigidBody, State, Wrench, rigid_body_motion
-from tandemlift.parts.mechanics.wall_geometry import WALL, wall
 
 
 class World(NamedTuple):

@@ -11,11 +11,11 @@ from scipy.spatial.transform import Rotation
 from tandemlift.core.vector import ZERO, Quat, vec3
 from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.parts.contact.impulses import CORE, impulses_of_walls
+from tandemlift.parts.contact.wall_geometry import wall
 from tandemlift.parts.contact.walls import near_wall_contact
 from tandemlift.parts.mechanics.push import CentralPush
 from tandemlift.parts.mechanics.rigid_body import State, Wrench, rigid_body_motion
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.mechanics.wall_geometry import wall
 
 FRAME, BODY, SHAPES = parts_layout_from(FLAT), free_body(FLAT.mass, FLAT.inertia), walls_of(FLAT)
 LOW = [wall((-1.0, 0.0), (1.0, 0.0), 0.0)]  # across under the beam's centre

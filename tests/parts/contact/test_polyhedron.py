@@ -18,12 +18,12 @@ from tandemlift.core.vector import ZERO, Quat, vec3
 from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.parts.contact.clearance import clearance, least_clearance
 from tandemlift.parts.contact.polyhedron import spots_by_walls
+from tandemlift.parts.contact.wall_geometry import wall
 from tandemlift.parts.contact.walls import near_wall_loads
 from tandemlift.parts.mechanics.bodies import convex_hull
 from tandemlift.parts.mechanics.joint_loads import resultant
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.mechanics.wall_geometry import wall
 
 FRAME = parts_layout_from(PAIR)
 BLOCK = convex_hull(tuple(product((-0.4, 0.4), (-0.8, 0.8), (-0.1, 0.1))))

@@ -13,10 +13,10 @@ from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.engines.models.scene import wall_contact_from
 from tandemlift.parts.contact.clearance import clearance
 from tandemlift.parts.contact.spheres import RotorSpheres
+from tandemlift.parts.contact.wall_geometry import wall
 from tandemlift.parts.contact.walls import near_wall_loads, nearest_with, no_walls_near
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.mechanics.wall_geometry import wall
 
 CORNERS = [[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [-2.0, 2.0]]
 TOPS = [9.0, 9.0, 1.0, 9.0]

@@ -14,10 +14,10 @@ from scipy.spatial.transform import Rotation
 
 from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
 from tandemlift.engines.models.links import parts_layout_from
+from tandemlift.parts.contact.wall_geometry import Wall, offset, wall
 from tandemlift.parts.mechanics.joint_loads import resultant
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.mechanics.wall_geometry import Wall, offset, wall
 
 counts = st.integers(1, 4)  # of quadrotors
 

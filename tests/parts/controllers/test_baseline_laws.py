@@ -9,6 +9,7 @@ from law_values import array, random_attitude, seeds
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
+from tandemlift.core.low_pass import LowPassState, low_pass
 from tandemlift.core.vector import ZERO, Mat3, Quat, vec3
 from tandemlift.parts.controllers.geometric import (
     Derivatives,
@@ -21,7 +22,6 @@ from tandemlift.parts.controllers.lqr import tilt_axes
 from tandemlift.parts.controllers.pid import PIDGains, PIDStageState, back_calculated, pid_step
 from tandemlift.parts.controllers.smc import linear_surface, switched_acceleration
 from tandemlift.parts.controllers.super_twisting import super_twisting_step, twisting_gains
-from tandemlift.parts.mechanics.low_pass import LowPassState, low_pass
 from tandemlift.parts.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion
 
 STEP = 0.001

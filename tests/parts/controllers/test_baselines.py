@@ -10,13 +10,13 @@ from scipy.linalg import solve_continuous_are
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
+from tandemlift.core.trajectories import Trajectory
 from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
 from tandemlift.parts.controllers import CONTROLLERS, Disturbance, Measured, Reference, control, controller
 from tandemlift.parts.controllers.lqr import LQRSettings, integrator_chain, regulator
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler, rotation_from_quaternion
-from tandemlift.parts.mechanics.trajectories import Trajectory
 
 VEHICLE, STEP = paper_vehicle(), 0.001
 MASS, J = VEHICLE.mass, np.diag(VEHICLE.inertia)

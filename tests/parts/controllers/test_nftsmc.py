@@ -9,6 +9,7 @@ from law_values import IRIS, array, free_body, random_state, random_vec3, seeds
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
+from tandemlift.core.trajectories import Trajectory
 from tandemlift.core.vector import ZERO, Quat, Vec3
 from tandemlift.parts.controllers import Measured, Reference, control
 from tandemlift.parts.controllers.attitude_reference import (
@@ -18,9 +19,9 @@ from tandemlift.parts.controllers.attitude_reference import (
     command_filter,
     shape_reference,
 )
-from tandemlift.parts.controllers.equations_of_motion import GeneralizedVector, euler_dynamics, expanded_dynamics
 from tandemlift.parts.controllers.nftsmc import NFTSMC, BodyRates, ExactRates, attitude_law, euler_rates, position_law
 from tandemlift.parts.controllers.sliding_surface import Saturation, switching, wanted_acceleration
+from tandemlift.parts.mechanics.equations_of_motion import GeneralizedVector, euler_dynamics, expanded_dynamics
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import (
     euler_from_quaternion,
@@ -28,7 +29,6 @@ from tandemlift.parts.mechanics.rotation import (
     quaternion_from_euler,
     wrap_angle,
 )
-from tandemlift.parts.mechanics.trajectories import Trajectory
 from tandemlift.simulation.preparation.assemble import assemble
 
 DRAG = Vec3(0.1, 0.2, 0.3)

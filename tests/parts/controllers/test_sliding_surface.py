@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 from law_values import array, free_body, numbers, random_vec3, seeds, vectors
 
 from tandemlift.core.vector import Vec3, vec3
-from tandemlift.parts.controllers.equations_of_motion import GeneralizedVector, drift, expanded_dynamics, response
 from tandemlift.parts.controllers.sliding_surface import (
     Cubic,
     Power,
@@ -29,6 +28,7 @@ from tandemlift.parts.controllers.sliding_surface import (
     terminal_slope,
     wanted_acceleration,
 )
+from tandemlift.parts.mechanics.equations_of_motion import GeneralizedVector, drift, expanded_dynamics, response
 from tandemlift.parts.mechanics.rigid_body import RigidBody
 
 EXPONENTS = [1.0, 1.5, 3.0]

@@ -4,11 +4,9 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
+from tandemlift.core.low_pass import LowPass, LowPassState
 from tandemlift.core.vector import ZERO, Quat, Vec3, each, vec3
-from tandemlift.parts.estimation.navigation import NavigationState, Navigator, innovation
-from tandemlift.parts.estimation.push_confirmation import outside_load, rotor_model, start_confirmation, withheld
-from tandemlift.parts.estimation.push_estimate import PushEstimate
-from tandemlift.parts.estimation.wrench.confirmed_part import (
+from tandemlift.parts.estimation.confirmed_part import (
     GUST_TIME,
     RELEARN_TIME,
     Zero,
@@ -16,8 +14,10 @@ from tandemlift.parts.estimation.wrench.confirmed_part import (
     given_up_slowly,
     square_change,
 )
-from tandemlift.parts.estimation.wrench.tare import SideForces, TareSums, summed, tare_of
-from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState
+from tandemlift.parts.estimation.navigation import NavigationState, Navigator, innovation
+from tandemlift.parts.estimation.push_confirmation import outside_load, rotor_model, start_confirmation, withheld
+from tandemlift.parts.estimation.push_estimate import PushEstimate
+from tandemlift.parts.estimation.tare import SideForces, TareSums, summed, tare_of
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.sensors.readings import ImuReading, MotionReading

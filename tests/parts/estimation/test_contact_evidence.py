@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from tandemlift.core.low_pass import LowPassState, low_pass
 from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, each
+from tandemlift.parts.contact.wall_geometry import Wall
 from tandemlift.parts.contact.walls import NearWalls
 from tandemlift.parts.estimation.contact_detection import (
     AWAY,
@@ -40,10 +42,8 @@ from tandemlift.parts.estimation.contact_map import (
     guards_matched,
 )
 from tandemlift.parts.estimation.push_estimate import PushEstimator
-from tandemlift.parts.estimation.wrench.tare import SideForces
-from tandemlift.parts.mechanics.low_pass import LowPassState, low_pass
+from tandemlift.parts.estimation.tare import SideForces
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.mechanics.wall_geometry import Wall
 
 PAIR, DT = each(2), 1e-3
 GEOMETRY = TouchGeometry(

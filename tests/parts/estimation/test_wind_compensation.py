@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 from tandemlift.missions import load_mission
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.estimation.push_estimate import estimate, push_estimator, start_push
-from tandemlift.parts.estimation.wrench.wind_compensation import (
+from tandemlift.parts.estimation.wind_compensation import (
     payload_drag_from,
 )
 from tandemlift.parts.mechanics.vehicle import Vehicle

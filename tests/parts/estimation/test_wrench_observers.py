@@ -11,13 +11,13 @@ from scipy.linalg import solve_continuous_are, solve_discrete_are
 from scipy.signal import TransferFunction, step
 from scipy.spatial.transform import Rotation
 
+from tandemlift.core.low_pass import LowPassState
 from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
 from tandemlift.parts.estimation.wrench.delay import delay_of, delayed
 from tandemlift.parts.estimation.wrench.kalman import natural_frequency, steady_gain, turning_gains
 from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation, observe
 from tandemlift.parts.estimation.wrench.start_observer import OBSERVERS, SampleNoise
 from tandemlift.parts.estimation.wrench.wrench_table import WrenchTable
-from tandemlift.parts.mechanics.low_pass import LowPassState
 from tandemlift.parts.mechanics.rigid_body import State, Wrench
 
 MASS, INERTIA, GRAVITY, H = 3.5, (3.2, 0.06, 3.3), 9.81, 1e-3

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from scipy.linalg import solve_continuous_are
 
+from tandemlift.core.low_pass import LowPass, LowPassState
 from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.missions import load_mission
 from tandemlift.parts.estimation import wrench_push
-from tandemlift.parts.estimation.wrench.confirmed_part import (
+from tandemlift.parts.estimation.confirmed_part import (
     DRIFT_TIME,
     FALL_TIME,
     NEGLIGIBLE,
@@ -30,7 +31,6 @@ from tandemlift.parts.estimation.wrench.fused import (
     unexplained,
 )
 from tandemlift.parts.estimation.wrench.start_observer import OBSERVERS
-from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 AT_ONCE, STILL = LowPass(0.0, 0.0, 0.0, 0.0), LowPassState(ZERO, ZERO)

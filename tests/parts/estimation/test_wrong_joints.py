@@ -2,11 +2,11 @@
 
 import pytest
 
+from tandemlift.core.low_pass import LowPassState
 from tandemlift.core.vector import ZERO, Quat, Vec3
 from tandemlift.parts.estimation.wrench.fused import JointPush, fuse, fused_filter
 from tandemlift.parts.estimation.wrench.kalman import kalman_observer
 from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation
-from tandemlift.parts.mechanics.low_pass import LowPassState
 from tandemlift.parts.mechanics.rigid_body import State, Wrench
 
 MASS, T = 3.5, 1e-3

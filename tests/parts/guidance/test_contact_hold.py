@@ -7,6 +7,7 @@ import pytest
 
 from tandemlift.core.vector import ZERO, Quat, Vec3, vec3
 from tandemlift.parts.estimation.contact_detection import NO_CONTACT
+from tandemlift.parts.guidance.compliance import ComplianceState
 from tandemlift.parts.guidance.contact_hold import (
     LEAD,
     LEAVING_SPEED,
@@ -18,7 +19,6 @@ from tandemlift.parts.guidance.contact_hold import (
     start_reaction,
 )
 from tandemlift.parts.guidance.guidance import PilotInput
-from tandemlift.parts.interaction.compliance import ComplianceState
 from tandemlift.parts.mechanics.rigid_body import State
 
 DT = 0.01

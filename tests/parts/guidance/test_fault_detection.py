@@ -22,7 +22,7 @@ from tandemlift.parts.guidance.preflight_checks import (
     failed_guidance_check,
     failed_lift_check,
 )
-from tandemlift.parts.interaction.requests import VehicleStatus
+from tandemlift.parts.guidance.requests import VehicleStatus
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.health import WELL
 

@@ -5,16 +5,16 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
+from tandemlift.core.low_pass import LowPassState, low_pass_step
 from tandemlift.core.phases import GUIDED, IDLE, LAND, LIFT
+from tandemlift.core.trajectories import SmoothStep, Trajectory
 from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, vec3
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
 from tandemlift.parts.guidance.guidance import PilotInput, guide
 from tandemlift.parts.guidance.hand_guidance import grounded_at, presses_on_ground, with_lift_and_landing
 from tandemlift.parts.guidance.phases import PhaseOutput
 from tandemlift.parts.guidance.supervised_reference import fenced, usable_input, with_blind_descent
-from tandemlift.parts.mechanics.low_pass import LowPassState, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.mechanics.trajectories import SmoothStep, Trajectory
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.simulation.preparation.start_pilot import start_hand_guidance
 

@@ -15,7 +15,7 @@ from tandemlift.parts.guidance.phases import (
     reached,
     update_phase,
 )
-from tandemlift.parts.interaction.requests import (
+from tandemlift.parts.guidance.requests import (
     NO_REQUEST,
     OperatorRequest,
     RequestCounts,

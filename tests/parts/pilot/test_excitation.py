@@ -7,7 +7,7 @@ import tandemlift as tl
 from tandemlift.core.vector import Absent, Vec3
 from tandemlift.missions import check, load_mission, tables_of
 from tandemlift.missions.flight_checks import flight_checks
-from tandemlift.parts.interaction.requests import ReferenceVelocity
+from tandemlift.parts.guidance.requests import ReferenceVelocity
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.pilot.excitation import AXES, ExcitationTable, excited, excited_lead, start_excitation
 

@@ -11,7 +11,7 @@ from scipy.optimize import linprog
 import tandemlift as tl
 from tandemlift.missions import check, load_mission, tables_of
 from tandemlift.missions.flight_checks import flight_checks
-from tandemlift.parts.pilot.controller_response import first_command
+from tandemlift.parts.flight_checks.controller_response import first_command
 
 CASES = {
     "paper": {},

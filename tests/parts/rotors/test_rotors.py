@@ -7,10 +7,10 @@ from scipy.spatial.transform import Rotation
 import tandemlift as tl
 from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, each
 from tandemlift.missions import load_mission
+from tandemlift.parts.flight_checks.hover_loads import WindOnParts
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.ground_effect import ground_effect_from, ground_effect_ratio
-from tandemlift.parts.rotors.hover_loads import WindOnParts
 from tandemlift.parts.rotors.rotors import RotorState, rotors_from, rotors_step
 
 VEHICLE = Vehicle.from_settings(load_mission("paper").vehicle)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from tandemlift.analysis.linearization.linear_model import LinearizationPoint, LinearModel
-from tandemlift.flight.state_variables import Variable
-from tandemlift.pictures.report.study.linear_model_figure import draw, response_of
+from tandemlift.analysis.linearization.state_variables import Variable
+from tandemlift.pictures.drawing.linear_model_figure import draw, response_of
 
 STEP, CHAIN = 1e-3, 4
 NONE = np.zeros(0)

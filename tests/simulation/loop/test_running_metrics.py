@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from tandemlift.core.vector import ZERO, Absent, Vec3, each
-from tandemlift.parts.guidance.estimate_errors import NO_ERRORS, PushErrors, error_metrics, with_errors
 from tandemlift.parts.guidance.guidance import ThrustFraction
 from tandemlift.parts.rotors.allocation import ConstrainedAllocation
 from tandemlift.parts.rotors.rotor_faults import RotorFaults
 from tandemlift.parts.rotors.rotors import Rotors
+from tandemlift.simulation.loop.estimate_errors import NO_ERRORS, PushErrors, error_metrics, with_errors
 from tandemlift.simulation.loop.running_metrics import (
     EMPTY,
     NO_EFFORT,

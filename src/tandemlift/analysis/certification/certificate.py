@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from tandemlift.analysis.linearization.claims import MET, MISSED, Claim, Tier
+from tandemlift.analysis.certification.claims import MET, MISSED, Claim, Tier
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import write_file
 from tandemlift.missions import format_toml

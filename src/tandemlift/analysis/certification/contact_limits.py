@@ -13,7 +13,7 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from tandemlift.analysis.linearization.claims import Claim
+from tandemlift.analysis.certification.claims import Claim
 
 
 class BodyRegion(NamedTuple):

@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tandemlift.analysis.certification.claims import Claim, FlownLimit, Tier
 from tandemlift.analysis.certification.parameters import ARM, parameter, with_keys
-from tandemlift.analysis.linearization.claims import Claim, FlownLimit, Tier
 from tandemlift.analysis.linearization.loop_margins import UNROUNDED, calm_mission
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import FAILURES

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.analysis.certification.changed_models import linear_limit
+from tandemlift.analysis.certification.claims import Claim, Tier
 from tandemlift.analysis.certification.disk_margins import disk_margin, disk_sizes
-from tandemlift.analysis.linearization.claims import Claim, Tier
 from tandemlift.analysis.linearization.loop_margins import (
     AXES,
     MOST,

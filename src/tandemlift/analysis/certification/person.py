@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.analysis.certification.admittance_map import admittance_map
+from tandemlift.analysis.certification.claims import Claim, Tier
 from tandemlift.analysis.certification.contact_limits import HAND, contact_claims
 from tandemlift.analysis.certification.felt_admittance import (
     LARGEST,
@@ -23,7 +24,6 @@ from tandemlift.analysis.certification.felt_admittance import (
 from tandemlift.analysis.certification.linear import nearest_to_oscillation
 from tandemlift.analysis.certification.parameters import ARM
 from tandemlift.analysis.certification.shakes import shake_claims
-from tandemlift.analysis.linearization.claims import Claim, Tier
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, PersonTable
@@ -61,7 +61,7 @@ class ArmBox(NamedTuple):
 
 
 def leading_impedance(p: PersonTable, w: Array, delay: float) -> NDArray[np.complexfloating]:
-    """Z (F,) of a person with model "pull" who leads the grip and sees it with a delay [s]: `parts.interaction.person`.
+    """Z (F,) of a person with model "pull" who leads the grip and sees it with a delay [s]: `parts.person.person`.
 
     The hand moves, through the muscles, to the seen grip, predicted over the delay and the muscles' lag, and ahead of
     it by the force for the missing speed over the stiffness.

@@ -13,9 +13,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tandemlift.analysis.certification.claims import Claim
 from tandemlift.analysis.certification.flown import PAST, hover_as_flown
 from tandemlift.analysis.certification.parameters import with_keys
-from tandemlift.analysis.linearization.claims import Claim
 from tandemlift.core.errors import CLOSE, FAILS, CheckResult, judged
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array

@@ -13,7 +13,7 @@ from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
-from tandemlift.analysis.linearization.claims import Claim, Tier
+from tandemlift.analysis.certification.claims import Claim, Tier
 from tandemlift.analysis.studies.execution.random_flights import (
     RandomFlight,
     probability_bound,

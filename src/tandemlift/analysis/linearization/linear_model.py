@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.analysis.linearization.kinks import Kink
+from tandemlift.analysis.linearization.state_variables import Variable
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.files import atomic_write, write_file
 from tandemlift.core.types import Array
-from tandemlift.flight.state_variables import Variable
 
 MATRICES = ("A", "B", "C", "D")
 ENDINGS = (".npz", ".json", ".mat")

@@ -20,11 +20,11 @@ from tandemlift.analysis.linearization.operating_point import (
     with_mean_lag,
 )
 from tandemlift.analysis.linearization.period import LinearizationPlan, PeriodDerivative, delayed_numbers, differentiate
+from tandemlift.analysis.linearization.state_variables import state_variable
 from tandemlift.analysis.linearization.step_graph import step_graph
 from tandemlift.core.errors import InputError, shown, unknown
 from tandemlift.core.types import Array, flat, unflat
 from tandemlift.core.vector import Absent, Quat
-from tandemlift.flight.state_variables import state_variable
 from tandemlift.missions import MissionLike, mission_of
 from tandemlift.parts.mechanics.push import push_moment
 from tandemlift.parts.rotors.rotor_lag import by_direction

@@ -7,13 +7,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tandemlift.analysis.linearization.state_variables import Variable
 from tandemlift.analysis.linearization.step_graph import NO_PUSH
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.types import flat, leaves, unflat
 from tandemlift.core.vector import Absent, Quat
 from tandemlift.flight.channels import channel_of
 from tandemlift.flight.data_frames import column_names
-from tandemlift.flight.state_variables import Variable
 from tandemlift.parts.mechanics.push import PointPush, PushSamples, push_at
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.wind import gust_velocity

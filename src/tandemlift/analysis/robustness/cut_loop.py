@@ -30,10 +30,10 @@ from tandemlift.analysis.robustness.sector_bound import (
     response,
     without_resting_modes,
 )
+from tandemlift.analysis.robustness.thrust_bounds import OFFSETS, REACHING, SURFACE, rotor_axes, switching_slopes
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission
-from tandemlift.parts.pilot.thrust_bounds import OFFSETS, REACHING, SURFACE, rotor_axes, switching_slopes
 from tandemlift.simulation.pilot_api import pilot_at_start
 
 SURFACES = tuple(f"surface {axis}" for axis in ("x", "y", "z", "roll", "pitch", "yaw"))

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.linearization.claims import Claim, Tier
+from tandemlift.analysis.certification.claims import Claim, Tier
 from tandemlift.analysis.linearization.loop_margins import LOWEST, ON_CIRCLE, POINTS, calm_mission, is_calm
 from tandemlift.analysis.robustness.uncertain_loop import CLOSER, EVERY, DeviatingLoop, found_factor, proven_factor
 from tandemlift.analysis.robustness.uncertainty import (

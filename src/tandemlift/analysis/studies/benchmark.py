@@ -16,8 +16,8 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.analysis.studies.design.benchmark_columns import TABLES, Row, Scores
-from tandemlift.analysis.studies.design.benchmark_entry import KINDS, BenchmarkEntry, Kind, baselines
+from tandemlift.analysis.studies.benchmark_columns import TABLES, Row, Scores
+from tandemlift.analysis.studies.benchmark_entry import KINDS, BenchmarkEntry, Kind, baselines
 from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution.flying import fly_each

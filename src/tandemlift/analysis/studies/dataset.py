@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from tandemlift.analysis.studies.design.plan import SEED, StudyPlan
-from tandemlift.analysis.studies.design.statistics import Share, share
+from tandemlift.analysis.studies.execution.statistics import Share, share
 from tandemlift.core.errors import extra
 
 if TYPE_CHECKING:

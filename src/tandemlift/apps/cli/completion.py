@@ -113,7 +113,7 @@ def shipped_text() -> str | None:
 
 def formed_words() -> Words:
     """The words as the package defines them; a key of a list of tables has its entry 0."""
-    from tandemlift.apps.export.new_mission import quadrotor_models
+    from tandemlift.apps.cli.new_mission import quadrotor_models
     from tandemlift.codegen.mission_module import TARGETS
     from tandemlift.engines.registry import ENGINES
     from tandemlift.flight.metric_descriptions import METRIC_GROUPS

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tandemlift.apps.live.notices import compile_notices
+from tandemlift.apps.cli.notices import compile_notices
 from tandemlift.core.errors import CLOSE, FAILS, REFUSED, CheckResult
 from tandemlift.core.progress import shown_progress
 

@@ -58,7 +58,7 @@ def linearize(
         model.save(out)
         echo(f"model: {out}")
     if figure:
-        from tandemlift.pictures.report.study.linear_model_figure import draw_linear_model
+        from tandemlift.pictures.drawing.linear_model_figure import draw_linear_model
 
         echo(f"figure: {draw_linear_model(model.connected(), Path(figure))}")
 
@@ -140,7 +140,7 @@ def certify(
 
     Ctrl-C keeps the tiers so far: exit code 130. 3: with --strict, a number is below its bar, or a tier has none.
     """
-    from tandemlift.analysis.studies.estimate import duration
+    from tandemlift.analysis.studies.execution.estimate import duration
     from tandemlift.pictures.report.study.certificate_report import (
         TIERS,
         certificate_lines,

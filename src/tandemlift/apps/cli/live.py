@@ -69,7 +69,7 @@ def live(
     """
     from tandemlift.apps.live.page_files import page_files, with_script
     from tandemlift.apps.live.server import PageServer, serve_until_interrupt
-    from tandemlift.apps.live.two_flights import TwoFlights
+    from tandemlift.apps.live.session.two_flights import TwoFlights
     from tandemlift.engines.registry import engine_named
     from tandemlift.missions import built_in
 
@@ -180,7 +180,7 @@ def score(folder: Path, mission: str, free: tuple[str, ...], settings: tuple[str
 
     Exit code 3: some were refused.
     """
-    from tandemlift.apps.live.ranking import ranked
+    from tandemlift.apps.live.session.ranking import ranked
 
     with progress_bar("Flying", "flights") as progress:
         table, refused = ranked(folder, load(mission, settings), free, progress)

@@ -156,7 +156,7 @@ def paper(
       FILE-files/tables/       Tables II and III beside our numbers, as CSV and LaTeX
       FILE-files/report.typ    the source of the PDF, with its text and numbers in report.json
     """
-    from tandemlift.apps.ros.gazebo_flight import gazebo_sentence
+    from tandemlift.apps.cli.gazebo_flight import gazebo_sentence
     from tandemlift.missions import load_mission
     from tandemlift.pictures.report.paper_figures import curve_channels
     from tandemlift.pictures.report.paper_report import check_typesetting, typeset, write_paper_files

@@ -72,7 +72,7 @@ def ros(
 
     Exit code 3: crashed, diverged or interrupted, or ROS 1's master is gone; --save saves the flight so far.
     """
-    from tandemlift.apps.live.two_flights import TwoFlights
+    from tandemlift.apps.live.session.two_flights import TwoFlights
     from tandemlift.apps.ros import ros1
     from tandemlift.apps.ros.middleware import recorded, split_words
     from tandemlift.apps.ros.node import fly_and_save, middleware_for, shut_down, version_for
@@ -140,7 +140,7 @@ def gazebo(
     """
     if by_hand and fast:
         raise InputError("--by-hand flies in real time: leave out --fast")
-    from tandemlift.apps.ros.gazebo_flight import fly_in_gazebo, has_display
+    from tandemlift.apps.cli.gazebo_flight import fly_in_gazebo, has_display
     from tandemlift.engines.gazebo_server import root
 
     loaded = flying.load(mission, flying.with_after_crash(settings, after_crash))

@@ -105,7 +105,7 @@ def study(
     rows = f"{plan.count:,} rows = {plan.sizes}" if plan.count > 1 else plan.sizes
     echo(f"{plan.settings.study.name}: {rows}")
     if dry_run:
-        from tandemlift.analysis.studies.estimate import estimate
+        from tandemlift.analysis.studies.execution.estimate import estimate
 
         with compile_notices.together():
             expected = estimate(plan)
@@ -182,9 +182,9 @@ def benchmark(file: Path | None, quick: bool, out: str | None) -> None:
       scores.json, scores.csv   the rows, each with all columns
     """
     from tandemlift.analysis.studies.benchmark import baseline_tables, scores_of, shipped_tables
-    from tandemlift.analysis.studies.design.benchmark_columns import csv_of, json_of, lines_of
-    from tandemlift.analysis.studies.design.benchmark_entry import checked_folder, entry_of
-    from tandemlift.flight.file_set import write_files
+    from tandemlift.analysis.studies.benchmark_columns import csv_of, json_of, lines_of
+    from tandemlift.analysis.studies.benchmark_entry import checked_folder, entry_of
+    from tandemlift.core.file_set import write_files
 
     if file is not None and file.is_dir():
         echo(f"{file}: {checked_folder(file)} files, all with their checksums")
@@ -256,7 +256,7 @@ def compare(
 
     Exit code 3: a flight crashed, diverged or did not lift; its row has the reason. With --strict, also findings.
     """
-    from tandemlift.pictures.report.study.comparison import write_comparison
+    from tandemlift.pictures.report.comparison import write_comparison
 
     if engines is not None and controllers is not None:
         raise InputError("--engines, --controllers: give only one of them")

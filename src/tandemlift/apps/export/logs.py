@@ -20,9 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, ValidationError
 
-from tandemlift.analysis.logs.checks import check_stamps
-from tandemlift.analysis.logs.clocks import GAP, synchronised
-from tandemlift.analysis.logs.log import MOTION, Log, Stream, log_of, stream_channel, without_repeats
+from tandemlift.analysis.identification.checks import check_stamps
+from tandemlift.analysis.identification.clocks import GAP, synchronised
+from tandemlift.analysis.identification.log import MOTION, Log, Stream, log_of, stream_channel, without_repeats
 from tandemlift.apps.export.coordinate_frames import to_world
 from tandemlift.apps.export.csv_file import read_csv
 from tandemlift.apps.export.messages import SECOND

@@ -30,11 +30,11 @@ from tandemlift.flight.record import CAUSE_TEXT, ENDING_TEXT
 from tandemlift.missions import tables_of
 from tandemlift.missions.changes import Tables
 from tandemlift.missions.key_descriptions import allowed, bounds, plain
-from tandemlift.parts.pilot.refusals import refusal_numbers
 from tandemlift.simulation.outcome import NOT_FINITE, EndingMoment, EndingNumbers, cause_of, ending_numbers, limit_of
 from tandemlift.simulation.parameter_changes import HAND_PARTS, LATER, NO_EFFECT, scheduled_change
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.recorded_flight import EMPTY_FLIGHT, HAND, HAND_RELEASED, MISSION
+from tandemlift.simulation.refusals import refusal_numbers
 from tandemlift.simulation.stepping import GUIDANCE_MEMORY
 
 ENDING_PARTS = (("limits",), *[("flight_state", name) for name in ("crash", "ended", "state", "impulse")])

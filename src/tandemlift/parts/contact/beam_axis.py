@@ -13,10 +13,7 @@ from tandemlift.core.types import Number, PerQuadrotor
 from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, dot
 from tandemlift.parts.contact.spheres import SMALL, WallContact, about_arm, sphere_contact
 from tandemlift.parts.contact.springs import Springs
-from tandemlift.parts.mechanics.joint_loads import PartLoad, PartsLayout, scaled, sum_over_set, translated
-from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.mechanics.wall_geometry import (
+from tandemlift.parts.contact.wall_geometry import (
     Wall,
     edges_of,
     nearer,
@@ -25,6 +22,9 @@ from tandemlift.parts.mechanics.wall_geometry import (
     second_nearest,
     selected_wall,
 )
+from tandemlift.parts.mechanics.joint_loads import PartLoad, PartsLayout, scaled, sum_over_set, translated
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
 PARALLEL = 1e-12  # sin² of the angle between lines without a unique nearest point
 

@@ -16,11 +16,11 @@ from tandemlift.core.vector import Absent, Vec3, apply, dot, is_set
 from tandemlift.parts.contact.beam_axis import beam_axis, beam_point, point_by_edge, point_by_top
 from tandemlift.parts.contact.polyhedron import NearPolyhedron, Polyhedron, spots_by_walls
 from tandemlift.parts.contact.spheres import NearRotors, RotorSpheres
+from tandemlift.parts.contact.wall_geometry import Wall, offset, offset_from_top
 from tandemlift.parts.contact.walls import Beam, NearBeam, NearWalls, Walls
 from tandemlift.parts.mechanics.joint_loads import PartsLayout, translated
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.mechanics.wall_geometry import Wall, offset, offset_from_top
 
 FAR = 1000.0  # m
 STALE = 0.05  # m, by which the vehicle may move before the nearest walls are found anew

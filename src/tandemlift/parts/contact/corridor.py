@@ -20,10 +20,10 @@ from tandemlift.core.caching import cached
 from tandemlift.core.errors import CheckResult, refused, shown, warned
 from tandemlift.core.keys import PerAxis, Table, key, must
 from tandemlift.core.vector import vec3
+from tandemlift.parts.contact.wall_geometry import offset, wall
 from tandemlift.parts.mechanics.rigid_body import InitialTable
 from tandemlift.parts.mechanics.rotation import rotation_from_euler
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.mechanics.wall_geometry import offset, wall
 
 Point2 = Annotated[tuple[float, float], PerAxis(2, single=False)]
 

@@ -24,6 +24,7 @@ from tandemlift.core.types import Number, NumberSet
 from tandemlift.core.vector import Absent, Vec3, apply, apply_transposed, cross, dot, is_set, set_of
 from tandemlift.parts.contact.polyhedron import Polyhedron, PolyhedronContact
 from tandemlift.parts.contact.spheres import ContactPair, RotorSpheres, WallContact, inverse_root
+from tandemlift.parts.contact.wall_geometry import first_number, only_number
 from tandemlift.parts.contact.walls import Beam, BeamContact, NearWallContact, Walls, loads_of_walls
 from tandemlift.parts.mechanics.joint_loads import (
     PartLoad,
@@ -36,7 +37,6 @@ from tandemlift.parts.mechanics.joint_loads import (
 )
 from tandemlift.parts.mechanics.rigid_body import RigidBody, State, about_center, apply_inertia, at_position
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.mechanics.wall_geometry import first_number, only_number
 
 CORE = 0.25  # of the radius; the rest is left to the springs
 SWEEPS = 3  # over all kinds of contact; what is left of a collision of several parts is stopped in the next step

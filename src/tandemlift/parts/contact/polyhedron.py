@@ -30,11 +30,7 @@ from tandemlift.parts.contact.beam_axis import (
 )
 from tandemlift.parts.contact.spheres import WallContact, about_arm, sphere_contact
 from tandemlift.parts.contact.springs import Springs
-from tandemlift.parts.mechanics.bodies import ConvexHull
-from tandemlift.parts.mechanics.joint_loads import PartLoad, PartsLayout, sum_over_set, translated
-from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.mechanics.wall_geometry import (
+from tandemlift.parts.contact.wall_geometry import (
     HIDDEN,
     SEAM,
     WALL,
@@ -49,6 +45,10 @@ from tandemlift.parts.mechanics.wall_geometry import (
     selected_wall,
     two_nearest_to,
 )
+from tandemlift.parts.mechanics.bodies import ConvexHull
+from tandemlift.parts.mechanics.joint_loads import PartLoad, PartsLayout, sum_over_set, translated
+from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
 ROUNDING = 0.02  # m, radius of corners and edges, or a quarter of the body's width if that is less
 BESIDE = 1e-9  # m, tolerance of a point on a face

@@ -14,11 +14,11 @@ from tandemlift.core.types import Number, PerRotor, number
 from tandemlift.core.vector import Absent, Mat3, Vec3, apply, cross, dot, set_of, spread
 from tandemlift.parts.contact.hull import rotor_sums
 from tandemlift.parts.contact.springs import Springs, friction_factor, spring_damper
+from tandemlift.parts.contact.wall_geometry import Wall, no_walls, offset, two_nearest_to
 from tandemlift.parts.mechanics.joint_loads import PartLoad, PartsLayout, scaled, translated
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.mechanics.wall_geometry import Wall, no_walls, offset, two_nearest_to
 
 SMALL = 1e-18  # m²: no direction is known at this distance
 SPARED = 0.02  # m, deflection of a guard under some 100 N

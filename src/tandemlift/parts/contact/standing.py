@@ -12,13 +12,13 @@ from pydantic import Field
 from tandemlift.core.caching import cached
 from tandemlift.core.errors import CheckResult, refused, shown, warned
 from tandemlift.core.keys import Positive, Table, key
+from tandemlift.core.trajectories import PhasesTable
 from tandemlift.core.types import GRAVITY
 from tandemlift.core.vector import vec3
 from tandemlift.parts.contact.feet import Floor, floor, sinkage_of, standing_height
 from tandemlift.parts.contact.hull import Hull, hull, lowest_of_hull
 from tandemlift.parts.mechanics.rigid_body import InitialTable
 from tandemlift.parts.mechanics.rotation import rotation_from_euler
-from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
 

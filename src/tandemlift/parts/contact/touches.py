@@ -15,10 +15,10 @@ from tandemlift.core.vector import ZERO, Absent, Vec3, each, set_of, total
 from tandemlift.parts.contact.hull import Ellipsoids, FloorContact, Hull, HullContact
 from tandemlift.parts.contact.polyhedron import Polyhedron, PolyhedronContact
 from tandemlift.parts.contact.spheres import ContactPair, RotorSpheres
+from tandemlift.parts.contact.wall_geometry import first_number, only_number
 from tandemlift.parts.contact.walls import Beam, BeamContact, NearWallContact, Walls
 from tandemlift.parts.mechanics.joint_loads import translated
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.mechanics.wall_geometry import first_number, only_number
 
 
 class TouchRecord(NamedTuple):

@@ -52,11 +52,11 @@ from tandemlift.parts.contact.spheres import (
     with_rotor_loads,
 )
 from tandemlift.parts.contact.springs import Springs, mobility, softened_for_step, surface_mobility
+from tandemlift.parts.contact.wall_geometry import WALL, Wall, no_walls, two_nearest_to
 from tandemlift.parts.mechanics.joint_loads import PartLoad, PartLoads, PartsLayout, translated
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.mechanics.wall_geometry import WALL, Wall, no_walls, two_nearest_to
 
 EDGES = 3  # of a body, which may press at a corner, too
 

@@ -12,6 +12,7 @@ A user's controller imports from here, from `tandemlift.core.algebra` and from
 `tandemlift.core.keys`.
 """
 
+from tandemlift.core.trajectories import Reference, Trajectory
 from tandemlift.parts.controllers.attitude_reference import AttitudeReference, CommandFilterState
 from tandemlift.parts.controllers.cascade import (
     LEVEL,
@@ -48,7 +49,6 @@ from tandemlift.parts.mechanics.rotation import (
     total_thrust,
     wrap_angle,
 )
-from tandemlift.parts.mechanics.trajectories import Reference, Trajectory
 
 # isort: split
 from tandemlift.parts.controllers import geometric, lqr, nftsmc, pid, smc, super_twisting  # register themselves

@@ -10,11 +10,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tandemlift.core.law import choice, law
+from tandemlift.core.low_pass import LowPass, LowPassState, low_pass, low_pass_step
+from tandemlift.core.trajectories import Reference
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.parts.controllers.interface import NoMemory
-from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
-from tandemlift.parts.mechanics.trajectories import Reference
 
 
 class Unfiltered(NamedTuple):

@@ -13,6 +13,7 @@ from pydantic import Field
 
 from tandemlift.core.keys import Tilt, key
 from tandemlift.core.law import law
+from tandemlift.core.trajectories import Reference
 from tandemlift.core.types import GRAVITY, Number
 from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.parts.controllers.attitude_reference import (
@@ -26,7 +27,6 @@ from tandemlift.parts.controllers.attitude_reference import (
 from tandemlift.parts.controllers.interface import Command, ControllerTable, Measured
 from tandemlift.parts.mechanics.rigid_body import UP, Inertia, Wrench, apply_inertia, gyroscopic, inertia_value
 from tandemlift.parts.mechanics.rotation import Euler, TiltLimit, TiltZXY, desired_orientation, tilt_limit, total_thrust
-from tandemlift.parts.mechanics.trajectories import Reference
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 Bandwidth = Annotated[float, Field(gt=0.0, le=1e4)]  # rad/s

@@ -23,6 +23,8 @@ from typing import NamedTuple
 from tandemlift.core.algebra import atan2, atan_ratio, cos, maximum, sin, sqrt
 from tandemlift.core.keys import Positive3, key
 from tandemlift.core.law import law
+from tandemlift.core.low_pass import LowPass, LowPassState, low_pass, low_pass_step
+from tandemlift.core.trajectories import Reference
 from tandemlift.core.types import GRAVITY, Number
 from tandemlift.core.vector import ZERO, Mat3, Vec3, apply_transposed, cross, dot, vec3
 from tandemlift.parts.controllers.cascade import (
@@ -36,10 +38,8 @@ from tandemlift.parts.controllers.cascade import (
 )
 from tandemlift.parts.controllers.interface import Command, Measured, control
 from tandemlift.parts.controllers.registry import register
-from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.mechanics.rotation import limit_tilt, rotation_from_quaternion
-from tandemlift.parts.mechanics.trajectories import Reference
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 MIN_UPWARD = 0.1  # of the weight: smallest upward component of the force that R_d points along

@@ -8,9 +8,9 @@ from typing import NamedTuple, TypeVar
 from tandemlift.core.errors import CheckResult
 from tandemlift.core.keys import Table, key
 from tandemlift.core.law import choice
+from tandemlift.core.trajectories import Reference
 from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.parts.mechanics.rigid_body import State, Wrench
-from tandemlift.parts.mechanics.trajectories import Reference
 
 
 class ControllerTable(Table):

@@ -27,6 +27,7 @@ import numpy as np
 from tandemlift.core.algebra import clip, expm1
 from tandemlift.core.keys import NonNegative3, Positive, Positive3, key
 from tandemlift.core.law import law
+from tandemlift.core.trajectories import Reference
 from tandemlift.core.types import GRAVITY, Array, Number
 from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.parts.controllers.attitude_reference import CommandFilterState
@@ -50,7 +51,6 @@ from tandemlift.parts.mechanics.rotation import (
     limit_tilt,
     wrap_angle,
 )
-from tandemlift.parts.mechanics.trajectories import Reference
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 

@@ -19,6 +19,8 @@ from pydantic import Field
 from tandemlift.core.errors import CheckResult, warned
 from tandemlift.core.keys import AtLeastOne6, NonNegative6, Positive6, Table, Tilt, key
 from tandemlift.core.law import law
+from tandemlift.core.low_pass import LowPassState, low_pass
+from tandemlift.core.trajectories import Reference, Trajectory
 from tandemlift.core.types import GRAVITY, Number
 from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.parts.controllers.attitude_reference import (
@@ -43,7 +45,6 @@ from tandemlift.parts.controllers.sliding_surface import (
     Tanh,
     wanted_acceleration,
 )
-from tandemlift.parts.mechanics.low_pass import LowPassState, low_pass
 from tandemlift.parts.mechanics.rigid_body import UP, Inertia, State, Wrench, apply_inertia, gyroscopic, inertia_value
 from tandemlift.parts.mechanics.rotation import (
     Euler,
@@ -58,7 +59,6 @@ from tandemlift.parts.mechanics.rotation import (
     total_thrust,
     wrap_angle,
 )
-from tandemlift.parts.mechanics.trajectories import Reference, Trajectory
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 FilterMemory = CommandFilterState | SmoothCommandFilterState | NoMemory

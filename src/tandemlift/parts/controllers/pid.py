@@ -18,6 +18,8 @@ from typing import NamedTuple
 from tandemlift.core.algebra import clip
 from tandemlift.core.keys import NonNegative3, Positive3, Triple, key
 from tandemlift.core.law import law
+from tandemlift.core.low_pass import LowPass, LowPassState, low_pass, low_pass_step
+from tandemlift.core.trajectories import Reference
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Vec3, vec3
 from tandemlift.parts.controllers.attitude_reference import CommandFilterState
@@ -35,9 +37,7 @@ from tandemlift.parts.controllers.cascade import (
 )
 from tandemlift.parts.controllers.interface import Command, Measured, control
 from tandemlift.parts.controllers.registry import register
-from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rotation import euler_from_quaternion, limit_tilt, rates_from_euler_rates, wrap_angle
-from tandemlift.parts.mechanics.trajectories import Reference
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 

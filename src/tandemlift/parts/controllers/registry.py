@@ -16,11 +16,11 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.plugs import PLUGS, Plug, is_of_the_package, plug
 from tandemlift.core.plugs import error_text as error_text
 from tandemlift.core.plugs import file_of as file_of_part
+from tandemlift.core.trajectories import Reference, Trajectory
 from tandemlift.core.types import is_symbol
 from tandemlift.core.vector import ZERO, Quat, Vec3, layout
 from tandemlift.parts.controllers.interface import Command, ControllerTable, Disturbance, Measured, control
 from tandemlift.parts.mechanics.rigid_body import State, Wrench
-from tandemlift.parts.mechanics.trajectories import Reference, Trajectory
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 Start = Callable[[Any, Vehicle, float], tuple[object, object]]

@@ -19,6 +19,7 @@ from typing import NamedTuple
 from tandemlift.core.algebra import absolute, clip, maximum, sqrt
 from tandemlift.core.keys import Positive6, key
 from tandemlift.core.law import elementwise, law
+from tandemlift.core.trajectories import Reference
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Vec3, vec3
 from tandemlift.parts.controllers.attitude_reference import CommandFilterState
@@ -39,7 +40,6 @@ from tandemlift.parts.controllers.interface import Command, Measured, control
 from tandemlift.parts.controllers.registry import register
 from tandemlift.parts.controllers.sliding_surface import saturate
 from tandemlift.parts.mechanics.rotation import euler_from_quaternion, euler_rates_from_rates, limit_tilt, wrap_angle
-from tandemlift.parts.mechanics.trajectories import Reference
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 ROOT, SIGN = 1.5, 1.1  # of √L and of L: Levant, 1998

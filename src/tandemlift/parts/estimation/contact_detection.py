@@ -28,7 +28,7 @@ from tandemlift.parts.estimation.contact_evidence import (
 )
 from tandemlift.parts.estimation.contact_map import BeamMatch, GuardMatch, beam_of, guards_matched, picked
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator
-from tandemlift.parts.estimation.wrench.tare import SideForces
+from tandemlift.parts.estimation.tare import SideForces
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 

@@ -31,14 +31,14 @@ from typing import Any, NamedTuple
 
 from tandemlift.core.algebra import greatest, maximum, minimum, where
 from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.low_pass import LowPass, LowPassState
 from tandemlift.core.types import N, Number, PerQuadrotor
 from tandemlift.core.vector import Absent, Vec3, total
 from tandemlift.parts.estimation.contact_map import BeamMatch, GuardMatch, TouchGeometry
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, external_forces
+from tandemlift.parts.estimation.tare import ForceBand, SideForces, deviation, force_band_step, restarted
 from tandemlift.parts.estimation.wrench.observation import WholeForce, may_act_on, whole_force
-from tandemlift.parts.estimation.wrench.tare import ForceBand, SideForces, deviation, force_band_step, restarted
 from tandemlift.parts.mechanics.joint_loads import add_to_each
-from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState
 from tandemlift.parts.sensors.readings import ImuReading
 
 CONFIRMED = 0.7  # least share of a force that the momentum residual shows

@@ -14,11 +14,11 @@ from tandemlift.core.types import Number, PerQuadrotor
 from tandemlift.core.vector import ZERO, Absent, Vec3, apply, dot, each, total
 from tandemlift.parts.contact.beam_axis import BeamAxis, NearBeam, beam_axis, beam_point, point_by_edge
 from tandemlift.parts.contact.polyhedron import NearPolyhedron
+from tandemlift.parts.contact.wall_geometry import Wall, if_number, number_at, offset
 from tandemlift.parts.contact.walls import NearWalls
 from tandemlift.parts.mechanics.joint_loads import translated
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.mechanics.wall_geometry import Wall, if_number, number_at, offset
 
 LEAST_COSINE = 0.6  # between a force and a wall's normal: friction of 0.8 rotates it by 39°, noise by more
 

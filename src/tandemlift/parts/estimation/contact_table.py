@@ -7,13 +7,13 @@ from typing import Literal
 
 from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.keys import NonNegative, Positive, Table, key
+from tandemlift.core.low_pass import low_pass
 from tandemlift.core.types import number
 from tandemlift.core.vector import Absent, each, spread, vec3
 from tandemlift.parts.estimation.contact_detection import ContactState, start_contact
 from tandemlift.parts.estimation.contact_evidence import ContactDetector
 from tandemlift.parts.estimation.contact_map import TouchGeometry
 from tandemlift.parts.estimation.wrench.observation import WholeForce
-from tandemlift.parts.mechanics.low_pass import low_pass
 from tandemlift.parts.mechanics.rigid_body import inertia_value
 from tandemlift.parts.mechanics.vehicle import Vehicle
 

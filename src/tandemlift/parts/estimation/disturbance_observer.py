@@ -27,9 +27,9 @@ from tandemlift.core.arrays import array, inverse
 from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.keys import BELIEVED, TRIAL, NonNegative, Positive, Positive3, Table, key
 from tandemlift.core.law import elementwise, law
+from tandemlift.core.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.core.types import GRAVITY, Number, PerRotor
 from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, vec3
-from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import (
     UP,
     InitialTable,

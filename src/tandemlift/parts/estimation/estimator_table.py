@@ -8,10 +8,10 @@ from typing import Annotated, Literal
 from tandemlift.core.errors import CheckResult, refused, warned
 from tandemlift.core.keys import Bandwidth, NonNegative, Positive, Scale, Table, key
 from tandemlift.core.plugs import Chosen
-from tandemlift.parts.estimation.wrench.wind_compensation import compensation_checks as compensation_checks
+from tandemlift.core.trajectories import PhasesTable
+from tandemlift.parts.estimation.wind_compensation import compensation_checks as compensation_checks
 from tandemlift.parts.estimation.wrench.wrench_table import MotionNoise, WrenchTable, bandwidth_checks
 from tandemlift.parts.mechanics.push import PushTable
-from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.parts.sensors.sensors_table import SensorsTable, noise_scale, steps_of
 
 

@@ -23,6 +23,7 @@ from tandemlift.parts.estimation.push_estimate import (
     push_estimator,
     start_push,
 )
+from tandemlift.parts.estimation.wind_compensation import PayloadDrag
 from tandemlift.parts.estimation.wrench.fused import (
     FusedFilter,
     FusedState,
@@ -31,7 +32,6 @@ from tandemlift.parts.estimation.wrench.fused import (
     fused_filter,
     refuted_force,
 )
-from tandemlift.parts.estimation.wrench.wind_compensation import PayloadDrag
 from tandemlift.parts.estimation.wrench_push import (
     PushAndState,
     PushInputs,

@@ -16,8 +16,10 @@ import numpy as np
 from tandemlift.core.algebra import maximum, minimum, sqrt, where
 from tandemlift.core.arrays import array
 from tandemlift.core.law import choice, elementwise, law
+from tandemlift.core.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, each, vec3
+from tandemlift.parts.estimation.confirmed_part import TINY, Zero, compared
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.estimation.push_estimate import (
     PushEstimate,
@@ -25,10 +27,8 @@ from tandemlift.parts.estimation.push_estimate import (
     PushEstimatorState,
     relative_acceleration,
 )
-from tandemlift.parts.estimation.wrench.confirmed_part import TINY, Zero, compared
-from tandemlift.parts.estimation.wrench.wind_compensation import subtracted_wind
+from tandemlift.parts.estimation.wind_compensation import subtracted_wind
 from tandemlift.parts.mechanics.joint_loads import scaled, sum_over_set, translated
-from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import UP, apply_inertia, gyroscopic, inertia_value
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle

@@ -6,7 +6,7 @@ a person on its right side) leave for the person F = m_L a − Σ f_i and M = J_
 Wind on the payload counts as a push. ω̇ is the difference of consecutive samples.
 
 In hover, over a window, the means of F and M are taken as the sensors' bias, after the payload's mass if it is
-identified (`parts.estimation.wrench.tare`); the place of an excess mass is not observable in hover (`inertial_force`).
+identified (`parts.estimation.tare`); the place of an excess mass is not observable in hover (`inertial_force`).
 Wind on the payload may be subtracted (`parts.mechanics.wind`).
 
 The external force on quadrotor i is f_i + m_i s_i, with s_i its specific force. Thrust is only in z, so x and y are
@@ -26,20 +26,20 @@ import numpy as np
 
 from tandemlift.core.algebra import clip, maximum, sqrt, where
 from tandemlift.core.law import law
+from tandemlift.core.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.core.types import Number, NumberSet, PerQuadrotor, number
 from tandemlift.core.vector import ZERO, Absent, Vec3, apply, cross, each, spread, total, vec3
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
-from tandemlift.parts.estimation.wrench.observation import PushEstimate as PushEstimate
-from tandemlift.parts.estimation.wrench.tare import TINY, SideForces, TareSums, is_tared, summed, tare_fields, tare_of
-from tandemlift.parts.estimation.wrench.wind_compensation import (
+from tandemlift.parts.estimation.tare import TINY, SideForces, TareSums, is_tared, summed, tare_fields, tare_of
+from tandemlift.parts.estimation.wind_compensation import (
     PayloadDrag,
     PayloadDragState,
     payload_drag_from,
     start_payload_drag,
     wind_on_payload,
 )
+from tandemlift.parts.estimation.wrench.observation import PushEstimate as PushEstimate
 from tandemlift.parts.mechanics.joint_loads import add_to_each, sum_over_set
-from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import Inertia, apply_inertia, gyroscopic, inertia_value
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle

@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 from tandemlift.core.algebra import where
 from tandemlift.core.arrays import inverse
 from tandemlift.core.law import choice, law
+from tandemlift.core.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.core.types import GRAVITY, Number, PerRotor, number
 from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, each, vec3
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
@@ -29,11 +30,10 @@ from tandemlift.parts.estimation.push_estimate import (
     estimate,
     point_of_application,
 )
+from tandemlift.parts.estimation.tare import SideForces, TareSums, is_tared, summed, tare_fields, tare_of
 from tandemlift.parts.estimation.wrench.delay import RotorDelay, RotorDelayState, late_wrench, rotor_delay
 from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation, PushEstimate, observe
 from tandemlift.parts.estimation.wrench.start_observer import OBSERVERS, SampleNoise
-from tandemlift.parts.estimation.wrench.tare import SideForces, TareSums, is_tared, summed, tare_fields, tare_of
-from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import UP, State, Wrench, inertia_value
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from tandemlift.core.keys import TRIAL, Bandwidth, Delay, Fraction, NonNegative, Positive, Positive3, Table, Tilt, key
+from tandemlift.core.low_pass import low_pass
 from tandemlift.core.vector import Absent, Vec3, vec3
+from tandemlift.parts.guidance.admittance import Admittance
+from tandemlift.parts.guidance.alternation import Alternation
+from tandemlift.parts.guidance.compliance import AssumedPayload, Compliance, MotionLimits, PushFilters
+from tandemlift.parts.guidance.energy_tank import TankTable
+from tandemlift.parts.guidance.following import FollowingTable
+from tandemlift.parts.guidance.policy import PolicyTable, start_policy
 from tandemlift.parts.guidance.yaw_compliance import YawTable
-from tandemlift.parts.interaction.admittance import Admittance
-from tandemlift.parts.interaction.alternation import Alternation
-from tandemlift.parts.interaction.compliance import AssumedPayload, Compliance, MotionLimits, PushFilters
-from tandemlift.parts.interaction.energy_tank import TankTable
-from tandemlift.parts.interaction.following import FollowingTable
-from tandemlift.parts.interaction.policy import PolicyTable, start_policy
-from tandemlift.parts.mechanics.low_pass import low_pass
 
 
 class ComplianceTable(Table, acts='pilot.guidance = "interactive"'):

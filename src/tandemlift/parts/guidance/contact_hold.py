@@ -18,9 +18,9 @@ from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Absent, Vec3, apply_transposed, cross, dot
 from tandemlift.parts.estimation.contact_detection import NO_CONTACT, ContactEstimate
 from tandemlift.parts.estimation.contact_table import ContactTable
+from tandemlift.parts.guidance.compliance import ComplianceState, moved_towards, within
 from tandemlift.parts.guidance.guidance import LoadOfWall, PilotInput
 from tandemlift.parts.guidance.phases import PhaseBounds
-from tandemlift.parts.interaction.compliance import ComplianceState, moved_towards, within
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 

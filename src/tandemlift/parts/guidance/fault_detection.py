@@ -19,7 +19,7 @@ from tandemlift.core.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIMITED, S
 from tandemlift.core.types import Number
 from tandemlift.core.vector import Vec3, dot
 from tandemlift.parts.guidance.preflight_checks import SensorStatus
-from tandemlift.parts.interaction.requests import VehicleStatus
+from tandemlift.parts.guidance.requests import VehicleStatus
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import body_z_axis
 

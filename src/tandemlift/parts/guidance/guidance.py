@@ -12,11 +12,12 @@ from tandemlift.core.algebra import where
 from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.keys import Table, key
 from tandemlift.core.law import Absent, choice, law
+from tandemlift.core.trajectories import PhasesTable, Reference, Trajectory
 from tandemlift.core.types import NEVER, Number, PerRotor
 from tandemlift.core.vector import Vec3
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
-from tandemlift.parts.interaction.compliance import AssumedPayload
-from tandemlift.parts.interaction.requests import (
+from tandemlift.parts.guidance.compliance import AssumedPayload
+from tandemlift.parts.guidance.requests import (
     NO_REQUEST,
     UNKNOWN_STATUS,
     OperatorRequest,
@@ -24,7 +25,6 @@ from tandemlift.parts.interaction.requests import (
     VehicleStatus,
 )
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.mechanics.trajectories import PhasesTable, Reference, Trajectory
 
 M = TypeVar("M")
 Reading = Literal["truth", "measurement", "estimate"]

@@ -6,11 +6,15 @@ from typing import NamedTuple
 
 from tandemlift.core.algebra import maximum, where
 from tandemlift.core.law import law
+from tandemlift.core.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.core.phases import CONTACT, IDLE, LAND, LIFT
+from tandemlift.core.trajectories import Reference, Trajectory
 from tandemlift.core.types import Number
 from tandemlift.core.vector import Absent, Vec3, apply, dot
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
+from tandemlift.parts.guidance.above_ground import GroundClearance, above_ground, has_floor
 from tandemlift.parts.guidance.available import AvailableForce, available_acceleration, needed_force, usable_thrust
+from tandemlift.parts.guidance.compliance import Compliance, ComplianceState, compensated_push, compliance_step
 from tandemlift.parts.guidance.contact_hold import (
     Boundary,
     ContactReaction,
@@ -22,6 +26,14 @@ from tandemlift.parts.guidance.contact_hold import (
     react_to_contact,
     turning_out,
     without_wall,
+)
+from tandemlift.parts.guidance.energy_tank import EnergyTank, EnergyTankState, passivity_damping
+from tandemlift.parts.guidance.following import (
+    Following,
+    FollowingLimits,
+    FollowingState,
+    must_land,
+    update_following,
 )
 from tandemlift.parts.guidance.guidance import (
     Guidance,
@@ -44,6 +56,8 @@ from tandemlift.parts.guidance.phases import (
     reached,
     update_phase,
 )
+from tandemlift.parts.guidance.policy import PolicyChannels, dissipated_with, policy_damping
+from tandemlift.parts.guidance.requests import requests_until, with_operator
 from tandemlift.parts.guidance.supervised_reference import fenced, usable_input, with_blind_descent
 from tandemlift.parts.guidance.supervision import (
     Supervision,
@@ -54,22 +68,8 @@ from tandemlift.parts.guidance.supervision import (
     supervise,
 )
 from tandemlift.parts.guidance.yaw_compliance import FixedHeading, HeadingReference, YawCompliance, YawState, yaw_step
-from tandemlift.parts.interaction.above_ground import GroundClearance, above_ground, has_floor
-from tandemlift.parts.interaction.compliance import Compliance, ComplianceState, compensated_push, compliance_step
-from tandemlift.parts.interaction.energy_tank import EnergyTank, EnergyTankState, passivity_damping
-from tandemlift.parts.interaction.following import (
-    Following,
-    FollowingLimits,
-    FollowingState,
-    must_land,
-    update_following,
-)
-from tandemlift.parts.interaction.policy import PolicyChannels, dissipated_with, policy_damping
-from tandemlift.parts.interaction.requests import requests_until, with_operator
-from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion, wrap_angle
-from tandemlift.parts.mechanics.trajectories import Reference, Trajectory
 
 
 class HandGuidance(NamedTuple):

@@ -12,11 +12,11 @@ from typing import Any, NamedTuple
 from tandemlift.core.algebra import absolute, maximum, minimum, where
 from tandemlift.core.law import Absent, law
 from tandemlift.core.phases import CONTACT, GUIDED, HOLD, IDLE, LAND, LIFT, LIMITED, STOPPED
+from tandemlift.core.trajectories import SmoothStep, smoothstep
 from tandemlift.core.types import Number
 from tandemlift.core.vector import dot
-from tandemlift.parts.interaction.requests import RequestCounts, RequestSchedule
+from tandemlift.parts.guidance.requests import RequestCounts, RequestSchedule
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.mechanics.trajectories import SmoothStep, smoothstep
 
 SETTLING_TIME = 1.0  # s, of steady hover before a tare
 STEADY_SPEED = 0.1  # m/s and rad/s

@@ -11,7 +11,7 @@ from tandemlift.core.keys import Fraction, Positive, Scale, Table, Tilt, key
 from tandemlift.core.law import Absent, choice, law
 from tandemlift.core.types import GRAVITY, Number
 from tandemlift.core.vector import dot
-from tandemlift.parts.interaction.requests import VehicleStatus
+from tandemlift.parts.guidance.requests import VehicleStatus
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import body_z_axis
 from tandemlift.parts.sensors.health import WELL, WatchdogReport

@@ -6,11 +6,11 @@ from typing import NamedTuple
 
 from tandemlift.core.algebra import chosen
 from tandemlift.core.law import Absent, law
+from tandemlift.core.trajectories import Reference, ScheduledPhases, Trajectory, reference
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
-from tandemlift.parts.guidance.guidance import Guidance, PilotInput, TimeSpan, checked_input, guide, is_within, run
-from tandemlift.parts.interaction.admittance import (
+from tandemlift.parts.guidance.admittance import (
     Admittance,
     AdmittanceState,
     HardGate,
@@ -19,8 +19,8 @@ from tandemlift.parts.interaction.admittance import (
     admittance_step,
     gate,
 )
-from tandemlift.parts.interaction.requests import ReferenceVelocity
-from tandemlift.parts.mechanics.trajectories import Reference, ScheduledPhases, Trajectory, reference
+from tandemlift.parts.guidance.guidance import Guidance, PilotInput, TimeSpan, checked_input, guide, is_within, run
+from tandemlift.parts.guidance.requests import ReferenceVelocity
 
 
 class ScheduledGuidance(NamedTuple):

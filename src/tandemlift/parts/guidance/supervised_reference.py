@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from tandemlift.core.algebra import chosen, clip, maximum
 from tandemlift.core.law import Absent, choice, elementwise, law
+from tandemlift.core.trajectories import Trajectory
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Vec3
+from tandemlift.parts.guidance.compliance import Compliance, ComplianceState, with_speed
 from tandemlift.parts.guidance.guidance import PilotInput
+from tandemlift.parts.guidance.requests import VehicleStatus
 from tandemlift.parts.guidance.supervision import Supervision, SupervisionState
-from tandemlift.parts.interaction.compliance import Compliance, ComplianceState, with_speed
-from tandemlift.parts.interaction.requests import VehicleStatus
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.mechanics.trajectories import Trajectory
 from tandemlift.parts.sensors.health import any_component, not_finite
 from tandemlift.parts.sensors.watchdog import state_not_finite
 

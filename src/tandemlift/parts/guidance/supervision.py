@@ -90,7 +90,7 @@ class SupervisionState(NamedTuple):
     Reaction and alarm; time of the hold, and time without a fault [s]; timers; the last valid state and the
     reference [m]; the numbers of the checks that fail before a lift and before pushes are followed, or 0; events.
 
-    For refusals (`parts.pilot.refusals`): the alarm of the fault that is present now; the number of the check that
+    For refusals (`simulation.refusals`): the alarm of the fault that is present now; the number of the check that
     fails before a lift, requested or not; the estimated payload mass [kg].
     """
 

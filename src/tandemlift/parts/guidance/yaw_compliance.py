@@ -13,11 +13,11 @@ from tandemlift.core.algebra import clip, where
 from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.keys import NonNegative, Positive, Table, Tilt, key
 from tandemlift.core.law import choice
+from tandemlift.core.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.core.types import Number, number
 from tandemlift.core.vector import Absent
+from tandemlift.parts.guidance.compliance import DeadBand, DeadBandState, PushFilters, dead_band
 from tandemlift.parts.guidance.phases import PhaseOutput
-from tandemlift.parts.interaction.compliance import DeadBand, DeadBandState, PushFilters, dead_band
-from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.parts.mechanics.rotation import heading_from, wrap_angle
 from tandemlift.parts.mechanics.vehicle import Vehicle
 

@@ -23,11 +23,11 @@ from tandemlift.core.algebra import chosen, cos, maximum, sin, where
 from tandemlift.core.errors import CheckResult, judged, refused
 from tandemlift.core.keys import NonNegative, Positive, Positive3, Table, key
 from tandemlift.core.law import elementwise, law
+from tandemlift.core.trajectories import PhasesTable, smoothstep
 from tandemlift.core.types import GRAVITY, Array, Number, NumberSet
 from tandemlift.core.vector import Absent, Vec3, total
-from tandemlift.parts.interaction.requests import ReferenceVelocity, padded_set
+from tandemlift.parts.guidance.requests import ReferenceVelocity, padded_set
 from tandemlift.parts.mechanics.rigid_body import Wrench
-from tandemlift.parts.mechanics.trajectories import PhasesTable, smoothstep
 from tandemlift.parts.rotors.hover import HoverFacts
 
 WRENCH, MOTION = ("thrust", "roll", "pitch", "yaw"), ("x", "y", "z")

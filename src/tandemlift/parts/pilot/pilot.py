@@ -21,6 +21,7 @@ from tandemlift.parts.estimation.disturbance_observer import (
     observer_step,
     unmodelled,
 )
+from tandemlift.parts.guidance.admittance import AdmittanceState
 from tandemlift.parts.guidance.guidance import (
     Guidance,
     checked_input,
@@ -33,11 +34,10 @@ from tandemlift.parts.guidance.guidance import (
 from tandemlift.parts.guidance.guidance import PilotInput as PilotInput
 from tandemlift.parts.guidance.hand_guidance import HandGuidance, HandGuidanceState
 from tandemlift.parts.guidance.scheduled_guidance import ScheduledGuidance
-from tandemlift.parts.interaction.admittance import AdmittanceState
 from tandemlift.parts.pilot.excitation import Excitation, excited, excited_lead
 from tandemlift.parts.pilot.rotor_lead import RotorLead, RotorLeadState, lead_step
+from tandemlift.parts.rotor_loss.detection import DetectionState, RotorLossDetection, detection_step, failed_rotors
 from tandemlift.parts.rotors.allocation import AllocationState, ConstrainedAllocation, Mixer, allocate
-from tandemlift.parts.rotors.detection import DetectionState, RotorLossDetection, detection_step, failed_rotors
 
 
 class PilotParameters(NamedTuple):

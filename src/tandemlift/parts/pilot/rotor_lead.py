@@ -12,9 +12,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tandemlift.core.law import law
+from tandemlift.core.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
-from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.rotors.allocation import AllocationTable
 

@@ -11,9 +11,9 @@ from tandemlift.core.types import Array
 from tandemlift.core.vector import Quat, Vec3, vec3
 from tandemlift.flight.record import Flight
 from tandemlift.parts.contact.beam_axis import BeamAxis, beam_axis, beam_point, point_by_edge, point_by_top
+from tandemlift.parts.contact.wall_geometry import edges_of, offset, offset_from_top, wall
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.mechanics.wall_geometry import edges_of, offset, offset_from_top, wall
 from tandemlift.pictures.drawing.vehicle import body_to_world
 
 

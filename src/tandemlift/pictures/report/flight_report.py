@@ -15,9 +15,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from tandemlift.core.errors import InputError
+from tandemlift.core.file_set import write_together
 from tandemlift.core.files import FLIGHT_FILE, write_file
 from tandemlift.core.types import Progress
-from tandemlift.flight.file_set import write_together
 from tandemlift.flight.printed_summary import notes
 from tandemlift.flight.record import Flight, counted_until
 from tandemlift.pictures.figures.registry import captions, figures_for

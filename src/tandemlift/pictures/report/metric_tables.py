@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tandemlift.flight.file_set import write_files
+from tandemlift.core.file_set import write_files
 from tandemlift.flight.metric_descriptions import metric_of
 
 NOTHING = r"\multicolumn{2}{c}{--}"

@@ -17,8 +17,8 @@ from tandemlift.core.vector import Absent, Vec3, dot, total
 from tandemlift.parts.estimation.push_confirmation import refuted_push
 from tandemlift.parts.guidance.guidance import thrust_fraction
 from tandemlift.parts.mechanics.rotation import body_z_axis, wrap_angle
+from tandemlift.parts.rotor_loss.detection import left_of
 from tandemlift.parts.rotors.allocation import ConstrainedAllocation, Mixer, limits_at
-from tandemlift.parts.rotors.detection import left_of
 from tandemlift.parts.rotors.rotors import Rotors
 from tandemlift.simulation.loop.excess import NO_EXCESS, Excess, exceed
 from tandemlift.simulation.loop.log_sample import Sample

@@ -21,9 +21,8 @@ from tandemlift.core.vector import ZERO, Absent, Vec3, mat3, vec3
 from tandemlift.parts.contact.clearance import is_fast
 from tandemlift.parts.contact.corridor import WallTable
 from tandemlift.parts.contact.feet import may_touch
+from tandemlift.parts.contact.wall_geometry import WALL, Wall, wall
 from tandemlift.parts.contact.walls import NearWalls, nearest_with, no_walls_near
-from tandemlift.parts.interaction.person import PATH_LEG, PathLeg
-from tandemlift.parts.interaction.person_table import PersonTable
 from tandemlift.parts.mechanics.push import (
     SUPPORT,
     CentralPush,
@@ -34,8 +33,9 @@ from tandemlift.parts.mechanics.push import (
     PushTable,
     push_at,
 )
-from tandemlift.parts.mechanics.wall_geometry import WALL, Wall, wall
 from tandemlift.parts.mechanics.wind import Gust, WindTable, gust_velocity, gusts_from
+from tandemlift.parts.person.person import PATH_LEG, PathLeg
+from tandemlift.parts.person.person_table import PersonTable
 from tandemlift.simulation.loop.random_numbers import Normals, normals
 from tandemlift.simulation.loop.step import FlightModel, StepNoise
 

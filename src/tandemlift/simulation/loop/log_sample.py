@@ -17,14 +17,14 @@ from tandemlift.engines.compiled_contact import DistantFloor
 from tandemlift.parts.contact.feet import Floor
 from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate, DisturbanceObserver
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceChannels
-from tandemlift.parts.interaction.caller_inputs import total_force, total_moment
 from tandemlift.parts.mechanics.joint_loads import PartLoads, PerfectReadings, sum_over_set
 from tandemlift.parts.mechanics.push import push_moment
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.mechanics.rotation import euler_from_quaternion
+from tandemlift.parts.rotor_loss.detection import DetectionState, RotorLossDetection
 from tandemlift.parts.rotors.allocation import Mixer, achieved_fraction, wrench
-from tandemlift.parts.rotors.detection import DetectionState, RotorLossDetection
 from tandemlift.parts.rotors.rotors import Rotors
+from tandemlift.simulation.loop.caller_inputs import total_force, total_moment
 from tandemlift.simulation.loop.estimate_channels import (
     EstimatedChannels,
     MeasuredChannels,

@@ -30,11 +30,11 @@ from tandemlift.parts.estimation.push_confirmation import (
 )
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator, PushEstimatorState
 from tandemlift.parts.estimation.wrench_push import PushInputs, WrenchPush, WrenchPushState, push_and_state
+from tandemlift.parts.guidance.admittance import AdmittanceState
 from tandemlift.parts.guidance.contact_hold import contact_of
 from tandemlift.parts.guidance.guidance import TimeSpan, is_within
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceState
 from tandemlift.parts.guidance.phases import in_the_air, is_in
-from tandemlift.parts.interaction.admittance import AdmittanceState
 from tandemlift.parts.mechanics.joint_loads import PerfectReadings
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.sensors.off_center import about_center

@@ -12,7 +12,7 @@ from tandemlift.core.algebra import chosen, clip, maximum, sqrt, where
 from tandemlift.core.law import law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Absent, Vec3, dot
-from tandemlift.parts.interaction.admittance import soft_threshold
+from tandemlift.parts.guidance.admittance import soft_threshold
 from tandemlift.simulation.loop.excess import NO_EXCESS, Excess, exceed
 from tandemlift.simulation.loop.log_sample import Sample
 

@@ -10,17 +10,17 @@ from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import ZERO, Absent, Vec3, apply_transposed, cross, dot, total
 from tandemlift.parts.contact.clearance import Clearance, clearance, smaller_clearance
-from tandemlift.parts.guidance.estimate_errors import EstimateErrors, PushErrors, error_metrics, with_errors
 from tandemlift.parts.guidance.guidance import thrust_fraction
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceChannels
-from tandemlift.parts.interaction.caller_inputs import OutsidePush, held_by_anyone
-from tandemlift.parts.interaction.person import PersonState
-from tandemlift.parts.interaction.virtual_hand import VirtualHandState
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion, wrap_angle
+from tandemlift.parts.person.person import PersonState
+from tandemlift.parts.person.virtual_hand import VirtualHandState
+from tandemlift.parts.rotor_loss.detection import left_of
 from tandemlift.parts.rotors.allocation import ConstrainedAllocation, Mixer
-from tandemlift.parts.rotors.detection import left_of
 from tandemlift.parts.rotors.rotor_faults import efficiency_at
 from tandemlift.parts.rotors.rotors import Rotors
+from tandemlift.simulation.loop.caller_inputs import OutsidePush, held_by_anyone
+from tandemlift.simulation.loop.estimate_errors import EstimateErrors, PushErrors, error_metrics, with_errors
 from tandemlift.simulation.loop.log_sample import Sample
 from tandemlift.simulation.loop.sources import EstimatedFlight
 

@@ -19,21 +19,14 @@ from tandemlift.engines.touches import touches_in
 from tandemlift.parts.contact.feet import FootGrip
 from tandemlift.parts.contact.touches import Touches, of_turning_rotors
 from tandemlift.parts.contact.walls import NearWalls
-from tandemlift.parts.interaction.caller_inputs import (
-    CallerInput,
-    OutsidePush,
-    commanded_thrusts,
-    lead_of,
-    with_caller_push,
-)
-from tandemlift.parts.interaction.person import Person, PersonState, landing_request, person_step
-from tandemlift.parts.interaction.requests import UNKNOWN_STATUS, operator_request
-from tandemlift.parts.interaction.tremor import TremorNoise
-from tandemlift.parts.interaction.virtual_hand import VirtualHandState
+from tandemlift.parts.guidance.requests import UNKNOWN_STATUS, operator_request
 from tandemlift.parts.mechanics.push import Push, PushSamples
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.turbulence import TurbulenceState, WindNoise
 from tandemlift.parts.mechanics.wind import WindModel, WindOutput, wind_loads
+from tandemlift.parts.person.person import Person, PersonState, landing_request, person_step
+from tandemlift.parts.person.tremor import TremorNoise
+from tandemlift.parts.person.virtual_hand import VirtualHandState
 from tandemlift.parts.pilot.pilot import (
     Decision,
     PilotInput,
@@ -45,6 +38,13 @@ from tandemlift.parts.pilot.pilot import (
 )
 from tandemlift.parts.rotors.rotors import Rotors, RotorState, rotors_step
 from tandemlift.parts.sensors.readings import Readings, SensorNoise, Sensors, SensorState
+from tandemlift.simulation.loop.caller_inputs import (
+    CallerInput,
+    OutsidePush,
+    commanded_thrusts,
+    lead_of,
+    with_caller_push,
+)
 from tandemlift.simulation.loop.detectors import Detectors, FindingLimits, detect
 from tandemlift.simulation.loop.ending import (
     CrashLimits,

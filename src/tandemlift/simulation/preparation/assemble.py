@@ -20,12 +20,11 @@ from tandemlift.missions import Mission
 from tandemlift.parts.contact.clearance import Clearance, clearance
 from tandemlift.parts.contact.feet import start_foot_grip
 from tandemlift.parts.contact.touches import start_touches
-from tandemlift.parts.guidance.estimate_errors import NO_ERRORS
-from tandemlift.parts.interaction.person import PersonState
-from tandemlift.parts.interaction.person_table import PersonTable, Walk, path_legs_from, start_person, waypoints_from
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.wind import start_wind, wind_noise_of
+from tandemlift.parts.person.person import PersonState
+from tandemlift.parts.person.person_table import PersonTable, Walk, path_legs_from, start_person, waypoints_from
 from tandemlift.parts.rotors.rotors import ActuatorsTable, start_rotors
 from tandemlift.parts.sensors.readings import (
     Readings,
@@ -39,6 +38,7 @@ from tandemlift.parts.sensors.readings import (
 from tandemlift.parts.sensors.sensor_faults import sensor_faults_from
 from tandemlift.parts.sensors.sensors_table import SensorsTable, first_samples
 from tandemlift.parts.sensors.start_sensors import sensors_from
+from tandemlift.simulation.loop.estimate_errors import NO_ERRORS
 from tandemlift.simulation.loop.external_inputs import InputTables, input_tables_from, near_walls_from, push_kind
 from tandemlift.simulation.loop.fault_tolerant_perception import (
     FaultySensors,

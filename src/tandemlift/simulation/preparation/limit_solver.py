@@ -13,6 +13,7 @@ from tandemlift.core.algebra import where
 from tandemlift.core.types import leaves
 from tandemlift.core.vector import total
 from tandemlift.parts.pilot.pilot import with_allocation, with_thrusts
+from tandemlift.parts.rotor_loss.detection import left_of, with_trials
 from tandemlift.parts.rotors.allocation import (
     AllocationState,
     limits_at,
@@ -20,7 +21,6 @@ from tandemlift.parts.rotors.allocation import (
     rotor_commands,
     with_failed,
 )
-from tandemlift.parts.rotors.detection import left_of, with_trials
 from tandemlift.parts.rotors.thrust_limit_solver import BoundedProblem, Search, search_step, start_search
 
 

@@ -12,8 +12,8 @@ from tandemlift.core.types import GRAVITY, Number
 from tandemlift.core.vector import Absent, Vec3, vec3
 from tandemlift.missions import Mission
 from tandemlift.missions.outcomes import CrashTable, FindingsTable, promise_of
+from tandemlift.parts.guidance.admittance import AdmittanceTable
 from tandemlift.parts.guidance.supervision_table import SupervisionTable
-from tandemlift.parts.interaction.admittance import AdmittanceTable
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotors import ActuatorsTable

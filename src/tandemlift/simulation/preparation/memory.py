@@ -16,10 +16,10 @@ from tandemlift.compiler.machine_code.code import Code
 from tandemlift.compiler.tracer.text import LARGEST, SMALLEST
 from tandemlift.core.types import flat
 from tandemlift.engines.registry import MachineBody
-from tandemlift.parts.interaction.person import PathLeg
+from tandemlift.parts.contact.wall_geometry import Wall
 from tandemlift.parts.mechanics.push import GaussianPush
-from tandemlift.parts.mechanics.wall_geometry import Wall
 from tandemlift.parts.mechanics.wind import Gust
+from tandemlift.parts.person.person import PathLeg
 from tandemlift.simulation.loop.external_inputs import ROWS, InputTables
 
 Numbers = NDArray[Any]  # doubles, or floats

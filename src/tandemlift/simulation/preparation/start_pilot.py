@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from tandemlift.core.algebra import minimum
+from tandemlift.core.low_pass import LowPassState
+from tandemlift.core.trajectories import PhasesTable, scheduled_phases
 from tandemlift.core.types import NEVER
 from tandemlift.core.vector import ZERO, Absent, Vec3, each, vec3
 from tandemlift.missions import Mission
@@ -15,31 +17,29 @@ from tandemlift.parts.estimation.fused_push import start_push_estimator
 from tandemlift.parts.estimation.navigation import navigator_from, start_navigation
 from tandemlift.parts.estimation.push_confirmation import start_confirmation
 from tandemlift.parts.estimation.wrench_push import PushInputs, push_and_state
+from tandemlift.parts.guidance.above_ground import GroundClearance
+from tandemlift.parts.guidance.admittance import AdmittanceState, admittance_from, gate_from
+from tandemlift.parts.guidance.alternation import start_alternation
 from tandemlift.parts.guidance.available import start_available
+from tandemlift.parts.guidance.compliance import start_compliance
 from tandemlift.parts.guidance.compliance_table import ComplianceTable, compliance_from, push_filters
 from tandemlift.parts.guidance.contact_hold import start_contact_hold
+from tandemlift.parts.guidance.energy_tank import start_tank
+from tandemlift.parts.guidance.following import AT_REST, start_following
 from tandemlift.parts.guidance.guidance import flight_spans
 from tandemlift.parts.guidance.hand_guidance import HandGuidance, HandGuidanceState
 from tandemlift.parts.guidance.phases import PhaseSettings, start_phases
+from tandemlift.parts.guidance.requests import RequestTable, start_requests
 from tandemlift.parts.guidance.scheduled_guidance import ScheduledGuidance
 from tandemlift.parts.guidance.supervision_table import start_supervision
 from tandemlift.parts.guidance.yaw_compliance import start_heading
-from tandemlift.parts.interaction.above_ground import GroundClearance
-from tandemlift.parts.interaction.admittance import AdmittanceState, admittance_from, gate_from
-from tandemlift.parts.interaction.alternation import start_alternation
-from tandemlift.parts.interaction.compliance import start_compliance
-from tandemlift.parts.interaction.energy_tank import start_tank
-from tandemlift.parts.interaction.following import AT_REST, start_following
-from tandemlift.parts.interaction.requests import RequestTable, start_requests
-from tandemlift.parts.mechanics.low_pass import LowPassState
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.mechanics.trajectories import PhasesTable, scheduled_phases
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.pilot.excitation import start_excitation
 from tandemlift.parts.pilot.pilot import PilotMemory, PilotParameters
 from tandemlift.parts.pilot.rotor_lead import start_lead
+from tandemlift.parts.rotor_loss.detection_table import start_detection
 from tandemlift.parts.rotors.allocation import hover_moments, mixer_of, start_allocation
-from tandemlift.parts.rotors.detection_table import start_detection
 from tandemlift.parts.rotors.rotor_faults import RotorFaults, known_faults
 from tandemlift.parts.sensors.readings import Readings
 from tandemlift.parts.sensors.sensors_table import steps_of

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from tandemlift.core.trajectories import Trajectory
 from tandemlift.core.types import zeroed
 from tandemlift.core.vector import ZERO, Absent, Quat
 from tandemlift.engines.compiled import BodyStep
 from tandemlift.parts.contact.walls import NearWalls
 from tandemlift.parts.controllers import Command, Measured, Reference, control
-from tandemlift.parts.interaction.person import Person
 from tandemlift.parts.mechanics.rigid_body import State, Wrench
-from tandemlift.parts.mechanics.trajectories import Trajectory
+from tandemlift.parts.person.person import Person
 from tandemlift.parts.rotors.allocation import ConstrainedAllocation
 from tandemlift.simulation.loop import step
 from tandemlift.simulation.loop.log_sample import Sample

@@ -20,7 +20,7 @@ from tandemlift.analysis.studies.tuning.result import EVIDENCE_FILE
 from tandemlift.analysis.studies.tuning.task import Task
 from tandemlift.apps.cli.main import cli
 from tandemlift.core.errors import InputError
-from tandemlift.parts.interaction.policy import PolicyTable
+from tandemlift.parts.guidance.policy import PolicyTable
 from tandemlift.pictures.report.study.tuning_figures import draw_search
 
 STIFFNESS = 4.0  # 1/s²

@@ -16,7 +16,7 @@ from tandemlift.apps.live.session.challenge import write_score
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.core.vector import Vec3
 from tandemlift.flight.corridor_score import count_touches, log_dimensionless_jerk, score_of
-from tandemlift.parts.interaction.virtual_hand import HAND_RELEASED
+from tandemlift.parts.person.virtual_hand import HAND_RELEASED
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 MISSION = """

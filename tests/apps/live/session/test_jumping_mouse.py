@@ -9,7 +9,7 @@ import tandemlift as tl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.core.types import unflat
 from tandemlift.core.vector import Vec3
-from tandemlift.parts.interaction.virtual_hand import HAND_RELEASED
+from tandemlift.parts.person.virtual_hand import HAND_RELEASED
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 RATE = 60  # targets a second

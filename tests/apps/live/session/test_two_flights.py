@@ -16,7 +16,7 @@ from tandemlift.apps.live.session.page_messages import (
     RewindMessage,
     SetMessage,
 )
-from tandemlift.apps.live.two_flights import TwoFlights
+from tandemlift.apps.live.session.two_flights import TwoFlights
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 DAMPING = "admittance.damping"

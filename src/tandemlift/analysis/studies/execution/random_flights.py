@@ -7,9 +7,9 @@ from typing import Any, NamedTuple
 
 from tandemlift.analysis.studies.design.plan import LONGER, StudyPlan
 from tandemlift.analysis.studies.design.settings import REFUSED
-from tandemlift.analysis.studies.design.statistics import upper_bound
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution.chunk_scheduling import fly_study
+from tandemlift.analysis.studies.execution.statistics import upper_bound
 from tandemlift.analysis.studies.execution.store import open_folder
 from tandemlift.core.files import write_file
 from tandemlift.core.phases import FAILURES

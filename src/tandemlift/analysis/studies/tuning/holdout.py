@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.studies.design.statistics import finite, quantile
+from tandemlift.analysis.studies.execution.statistics import finite, quantile
 from tandemlift.analysis.studies.tuning.candidates import Aim, Cost, Trial, cost_of
 from tandemlift.analysis.studies.tuning.goals import Goal
 from tandemlift.core.types import Array

@@ -24,10 +24,10 @@ from typing import NamedTuple
 
 from tandemlift.core.algebra import clip, cos, exp, maximum, sin, sqrt
 from tandemlift.core.law import law
+from tandemlift.core.low_pass import LowPass, LowPassState, V, low_pass, low_pass_step
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.parts.estimation.wrench.kalman import LEAST_NOISE
-from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, V, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import Wrench
 
 BAND = 60.0  # rad/s, ω: above a hand's pushes, below the delay of the rotors

@@ -30,6 +30,7 @@ from numpy.typing import ArrayLike
 
 from tandemlift.core.algebra import absolute, exp, maximum, minimum, sqrt, where
 from tandemlift.core.law import elementwise, law
+from tandemlift.core.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Vec3, apply, cross, spread, total
 from tandemlift.parts.estimation.wrench.kalman import (
@@ -45,7 +46,6 @@ from tandemlift.parts.estimation.wrench.observation import (
     modelled_moment,
     principal,
 )
-from tandemlift.parts.mechanics.low_pass import LowPass, LowPassState, low_pass, low_pass_step
 from tandemlift.parts.mechanics.rigid_body import UP, Inertia, apply_inertia
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 

@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator
 
 from tandemlift.analysis.certification.certificate import Certificate
+from tandemlift.analysis.certification.claims import Claim, Tier
 from tandemlift.analysis.certification.linear import DISK_PHASE_BAR
-from tandemlift.analysis.linearization.claims import Claim, Tier
 from tandemlift.pictures.drawing.figure import Caption
 from tandemlift.pictures.drawing.style import (
     BLUE,

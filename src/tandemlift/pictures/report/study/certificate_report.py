@@ -15,12 +15,12 @@ from typing import Any
 
 from tandemlift.analysis.certification.certificate import TIERS, Certificate
 from tandemlift.analysis.certification.certificate import time_left as time_left
+from tandemlift.analysis.certification.claims import Claim, Tier
 from tandemlift.analysis.certification.flown import with_limits
 from tandemlift.analysis.certification.linear import linear_tier
 from tandemlift.analysis.certification.person import ArmBox, person_tier
 from tandemlift.analysis.certification.shakes import shake_checks as shake_checks
 from tandemlift.analysis.certification.statistics import FLIGHTS, statistics_tier
-from tandemlift.analysis.linearization.claims import Claim, Tier
 from tandemlift.analysis.robustness.nonlinear import nonlinear_tier
 from tandemlift.analysis.robustness.structured import DEFAULT_BOX, structured_tier
 from tandemlift.core.errors import InputError, extra, unknown

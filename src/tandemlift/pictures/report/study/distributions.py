@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from tandemlift.analysis.studies.design.statistics import finite
+from tandemlift.analysis.studies.execution.statistics import finite
 from tandemlift.analysis.studies.study_rows import Quantity, StudyRows
 from tandemlift.core.types import Array
 from tandemlift.pictures.drawing.figure import Caption

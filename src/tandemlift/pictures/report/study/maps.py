@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from tandemlift.analysis.studies.design.distributions import LogUniform
-from tandemlift.analysis.studies.design.statistics import share
+from tandemlift.analysis.studies.execution.statistics import share
 from tandemlift.analysis.studies.study_rows import Places, RowGroup, StudyRows
 from tandemlift.core.types import Array
 from tandemlift.pictures.drawing.figure import Caption

@@ -11,7 +11,7 @@ import numpy as np
 
 from tandemlift.analysis.studies.design.keys import changes_in
 from tandemlift.analysis.studies.design.settings import REFUSED
-from tandemlift.analysis.studies.design.statistics import Share, finite, quantile, share, upper_bound
+from tandemlift.analysis.studies.execution.statistics import Share, finite, quantile, share, upper_bound
 from tandemlift.analysis.studies.study_rows import StudyRows
 from tandemlift.analysis.studies.table import Study
 from tandemlift.core.errors import shown

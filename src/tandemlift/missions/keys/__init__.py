@@ -1,1 +1,0 @@
-"""Rules for keys of all tables: which of them act in a mission, and the present names of former keys."""

@@ -1,0 +1,1 @@
+"""Checks before a flight: loads, authority, loops, sensing, schedule, and the linear response of a controller."""
