@@ -45,8 +45,8 @@ from tandemlift.analysis.certification.flown import (
 )
 from tandemlift.analysis.certification.linear import CHANGED, loop_as_flown, rotor_limits
 from tandemlift.analysis.certification.parameters import ARM
-from tandemlift.analysis.robustness.uncertain_loop import DeviatingLoop
-from tandemlift.analysis.robustness.uncertainty import family_at, hovers_of
+from tandemlift.analysis.certification.uncertain_loop import DeviatingLoop
+from tandemlift.analysis.certification.uncertainty import family_at, hovers_of
 from tandemlift.missions import Mission
 
 BASES = ("iris", "zigzag", "rotor-loss", "gusts")

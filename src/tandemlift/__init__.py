@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from tandemlift.core.files import __version__ as __version__
 
 if TYPE_CHECKING:
+    from tandemlift.analysis.certification.certify import certify
     from tandemlift.analysis.certification.mission_check import check
     from tandemlift.analysis.identification.excitation_design import excite
     from tandemlift.analysis.identification.identify import identify
@@ -39,7 +40,6 @@ if TYPE_CHECKING:
     from tandemlift.parts.controllers.user_controller import load_controller
     from tandemlift.parts.mechanics.vehicle import Vehicle
     from tandemlift.pictures.figures.registry import plot
-    from tandemlift.pictures.report.study.certificate_report import certify
     from tandemlift.simulation.fly import fly_many
     from tandemlift.simulation.pilot_api import Pilot
     from tandemlift.simulation.simulation import Simulation
@@ -55,7 +55,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "Simulation": "simulation.simulation",
     "Study": "analysis.studies.table",
     "Vehicle": "parts.mechanics.vehicle",
-    "certify": "pictures.report.study.certificate_report",
+    "certify": "analysis.certification.certify",
     "check": "analysis.certification.mission_check",
     "compile_mission": "codegen.mission_module",
     "excite": "analysis.identification.excitation_design",

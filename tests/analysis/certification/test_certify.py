@@ -17,7 +17,7 @@ from repository import ROOT
 from scipy.stats import beta
 
 import tandemlift as tl
-from tandemlift.analysis.certification import linear
+from tandemlift.analysis.certification import certify, linear
 from tandemlift.analysis.certification.certificate import TIERS, Certificate
 from tandemlift.analysis.certification.claims import Claim, FlownLimit, Tier
 from tandemlift.analysis.certification.flown import with_limits
@@ -75,8 +75,8 @@ def test_a_tier_that_was_not_formed_is_named():
 
 
 def test_the_version_is_that_of_the_package_and_not_of_stale_metadata(monkeypatch):
-    monkeypatch.setattr(certificate_report, "version", lambda name: "0.2.0")
-    assert certificate_report.certify("iris", tiers=[]).versions["tandemlift"] == tl.__version__
+    monkeypatch.setattr(certify, "version", lambda name: "0.2.0")
+    assert certify.certify("iris", tiers=[]).versions["tandemlift"] == tl.__version__
 
 
 def test_captions_tell_of_flights_only_where_some_are_drawn():
@@ -212,7 +212,7 @@ def stopping(*formed):
 
 def test_ctrl_c_keeps_the_tiers_that_are_finished_and_says_that_it_was_stopped(monkeypatch, tmp_path):
     for name, form in stopping("linear", "structured").items():
-        monkeypatch.setattr(certificate_report, name, form)
+        monkeypatch.setattr(certify, name, form)
     found = tl.certify("hover")
     assert [tier.name for tier in found.tiers] == ["linear", "structured"]
     assert found.stopped
@@ -229,7 +229,7 @@ def test_ctrl_c_keeps_the_tiers_that_are_finished_and_says_that_it_was_stopped(m
 
 def test_ctrl_c_before_a_tier_is_finished_writes_nothing(monkeypatch, tmp_path):
     for name, form in stopping().items():
-        monkeypatch.setattr(certificate_report, name, form)
+        monkeypatch.setattr(certify, name, form)
     with pytest.raises(KeyboardInterrupt):
         tl.certify("hover")
     assert CliRunner().invoke(cli, ["certify", "hover", "--out", str(tmp_path / "out")]).exit_code == 1  # click's Abort
@@ -237,9 +237,7 @@ def test_ctrl_c_before_a_tier_is_finished_writes_nothing(monkeypatch, tmp_path):
 
 
 def test_a_tier_without_numbers_does_not_pass_strictly(monkeypatch, tmp_path):
-    monkeypatch.setattr(
-        certificate_report, "linear_tier", lambda mission: Tier("linear", "Linear", (), reason="unstable")
-    )
+    monkeypatch.setattr(certify, "linear_tier", lambda mission: Tier("linear", "Linear", (), reason="unstable"))
     run = ["certify", "hover", "--tiers", "linear", "--out", str(tmp_path)]
     assert CliRunner().invoke(cli, [*run, "--strict"]).exit_code == 3
     done = CliRunner().invoke(cli, run)

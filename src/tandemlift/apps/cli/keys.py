@@ -68,9 +68,9 @@ def new(
       tandemlift new beam.toml --quadrotor iris --quadrotor x500
       tandemlift new beam.toml --length 2 --mass 0.5 --center 0.1 --force
     """
+    from tandemlift.analysis.certification.shakes import shake_checks
     from tandemlift.apps.cli.new_mission import NewBeam, heaviest_words, hover_words, new_mission, quadrotor_models
     from tandemlift.missions import load_mission
-    from tandemlift.pictures.report.study.certificate_report import shake_checks
 
     path, models = file_path("FILE", file, ".toml"), quadrotor_models()
     if path.exists() and not force:

@@ -140,14 +140,10 @@ def certify(
 
     Ctrl-C keeps the tiers so far: exit code 130. 3: with --strict, a number is below its bar, or a tier has none.
     """
+    from tandemlift.analysis.certification.certificate import TIERS, time_left
+    from tandemlift.analysis.certification.certify import certify as certified
     from tandemlift.analysis.studies.execution.estimate import duration
-    from tandemlift.pictures.report.study.certificate_report import (
-        TIERS,
-        certificate_lines,
-        time_left,
-        write_certificate,
-    )
-    from tandemlift.pictures.report.study.certificate_report import certify as certified
+    from tandemlift.pictures.report.study.certificate_report import certificate_lines, write_certificate
 
     loaded, chosen = load(mission, settings, controller), tiers.split(",") if tiers else TIERS
     with results_folder(out, Path("out") / f"{loaded.mission.name}-certificate", ()) as folder:

@@ -26,7 +26,7 @@ PI = 3.141592653589793
 HALF_PI = 1.5707963267948966
 QUARTER_PI = 0.7853981633974483
 TAN_EIGHTH = 0.41421356237309503  # tan(π/8)
-SINGLE = dict[str, Callable[..., Any]]()  # functions of `compiler.single.elementary`, by their names
+SINGLE = dict[str, Callable[..., Any]]()  # functions of `compiler.single`, by their names
 
 
 def polynomial(function: Callable[..., Any]) -> Callable[..., Any]:

@@ -19,9 +19,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.linearization.loop_margins import rotors_response
-from tandemlift.analysis.robustness.structured_singular_value import TINY, Bound, Complex, DeltaBlock, upper_bound
-from tandemlift.analysis.robustness.uncertainty import (
+from tandemlift.analysis.certification.structured_singular_value import TINY, Bound, Complex, DeltaBlock, upper_bound
+from tandemlift.analysis.certification.uncertainty import (
     INERTIAS,
     RANK,
     Family,
@@ -32,6 +31,7 @@ from tandemlift.analysis.robustness.uncertainty import (
     family_at,
     largest_factor,
 )
+from tandemlift.analysis.linearization.loop_margins import rotors_response
 from tandemlift.core.errors import extra
 from tandemlift.core.types import Array
 

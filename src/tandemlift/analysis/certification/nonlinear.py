@@ -13,11 +13,11 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from tandemlift.analysis.certification.claims import Claim, FlownLimit, Tier
+from tandemlift.analysis.certification.cut_loop import DISTURBED, SURFACES, CutLoop, loop_of, parts_of
+from tandemlift.analysis.certification.intervals import bounds
+from tandemlift.analysis.certification.sector_bound import LoopPart, Sectors, Start, region_of, solvers, tolerated
+from tandemlift.analysis.certification.thrust_bounds import RotorAxes, commanded_thrusts, disturb, rotor_axes
 from tandemlift.analysis.linearization.loop_margins import AXES, bisected, calm_mission
-from tandemlift.analysis.robustness.cut_loop import DISTURBED, SURFACES, CutLoop, loop_of, parts_of
-from tandemlift.analysis.robustness.intervals import bounds
-from tandemlift.analysis.robustness.sector_bound import LoopPart, Sectors, Start, region_of, solvers, tolerated
-from tandemlift.analysis.robustness.thrust_bounds import RotorAxes, commanded_thrusts, disturb, rotor_axes
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, check, tables_of

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from tandemlift.analysis.robustness import uncertain_loop as loops
-from tandemlift.analysis.robustness.uncertain_loop import EVERY, proven_factor
+from tandemlift.analysis.certification import uncertain_loop as loops
+from tandemlift.analysis.certification.uncertain_loop import EVERY, proven_factor
 
 PEAK = 7.3  # rad/s
 

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tandemlift.analysis.certification.structured_singular_value import Complex
 from tandemlift.analysis.linearization.frequency_response import frequency_response
 from tandemlift.analysis.linearization.linear_model import LinearModel
 from tandemlift.analysis.linearization.linearize import linearize
@@ -26,7 +27,6 @@ from tandemlift.analysis.linearization.loop_margins import (
     rotor_delay_and_lag,
     rotors_of,
 )
-from tandemlift.analysis.robustness.structured_singular_value import Complex
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.types import Array
 from tandemlift.missions import HoverFacts, Mission, check, tables_of

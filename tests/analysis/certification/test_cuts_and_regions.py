@@ -6,13 +6,20 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from tandemlift.analysis.certification import cut_loop, sector_bound
+from tandemlift.analysis.certification.cut_loop import DISTURBED, CutLoop, parts_of
+from tandemlift.analysis.certification.intervals import bounds
+from tandemlift.analysis.certification.nonlinear import OffsetBounds, OffsetFlights, _offset_claims, sectors_of
+from tandemlift.analysis.certification.sector_bound import (
+    LoopPart,
+    Plant,
+    Sectors,
+    Start,
+    response,
+    without_resting_modes,
+)
+from tandemlift.analysis.certification.thrust_bounds import RotorAxes
 from tandemlift.analysis.linearization.loop_margins import AXES
-from tandemlift.analysis.robustness import cut_loop, sector_bound
-from tandemlift.analysis.robustness.cut_loop import DISTURBED, CutLoop, parts_of
-from tandemlift.analysis.robustness.intervals import bounds
-from tandemlift.analysis.robustness.nonlinear import OffsetBounds, OffsetFlights, _offset_claims, sectors_of
-from tandemlift.analysis.robustness.sector_bound import LoopPart, Plant, Sectors, Start, response, without_resting_modes
-from tandemlift.analysis.robustness.thrust_bounds import RotorAxes
 from tandemlift.core.algebra import sin, tan
 from tandemlift.core.errors import InputError
 

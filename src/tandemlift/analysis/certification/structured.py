@@ -15,9 +15,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.analysis.certification.claims import Claim, Tier
-from tandemlift.analysis.linearization.loop_margins import LOWEST, ON_CIRCLE, POINTS, calm_mission, is_calm
-from tandemlift.analysis.robustness.uncertain_loop import CLOSER, EVERY, DeviatingLoop, found_factor, proven_factor
-from tandemlift.analysis.robustness.uncertainty import (
+from tandemlift.analysis.certification.uncertain_loop import CLOSER, EVERY, DeviatingLoop, found_factor, proven_factor
+from tandemlift.analysis.certification.uncertainty import (
     DEFAULT_BOX,
     INERTIAS,
     LARGEST,
@@ -31,6 +30,7 @@ from tandemlift.analysis.robustness.uncertainty import (
     parameters_of,
     uncertain_tables,
 )
+from tandemlift.analysis.linearization.loop_margins import LOWEST, ON_CIRCLE, POINTS, calm_mission, is_calm
 from tandemlift.core.errors import InputError
 from tandemlift.missions import HoverFacts, Mission, built_in, check, format_toml, load_mission, tables_of
 

@@ -7,7 +7,7 @@ import itertools
 import numpy as np
 import pytest
 
-from tandemlift.analysis.robustness.structured_singular_value import DeltaBlock, upper_bound
+from tandemlift.analysis.certification.structured_singular_value import DeltaBlock, upper_bound
 
 pytest.importorskip("scipy")
 REAL, COMPLEX = DeltaBlock(1, real=True), DeltaBlock(1, real=False)

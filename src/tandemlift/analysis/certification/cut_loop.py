@@ -14,13 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.linearization.linear_model import Variable, connecting_states
-from tandemlift.analysis.linearization.linearize import linearization_plan
-from tandemlift.analysis.linearization.loop_margins import AXES, calm_mission
-from tandemlift.analysis.linearization.model_variables import InputColumn
-from tandemlift.analysis.linearization.operating_point import flown_to
-from tandemlift.analysis.linearization.period import differentiate
-from tandemlift.analysis.robustness.sector_bound import (
+from tandemlift.analysis.certification.sector_bound import (
     LoopPart,
     Plant,
     Start,
@@ -30,7 +24,13 @@ from tandemlift.analysis.robustness.sector_bound import (
     response,
     without_resting_modes,
 )
-from tandemlift.analysis.robustness.thrust_bounds import OFFSETS, REACHING, SURFACE, rotor_axes, switching_slopes
+from tandemlift.analysis.certification.thrust_bounds import OFFSETS, REACHING, SURFACE, rotor_axes, switching_slopes
+from tandemlift.analysis.linearization.linear_model import Variable, connecting_states
+from tandemlift.analysis.linearization.linearize import linearization_plan
+from tandemlift.analysis.linearization.loop_margins import AXES, calm_mission
+from tandemlift.analysis.linearization.model_variables import InputColumn
+from tandemlift.analysis.linearization.operating_point import flown_to
+from tandemlift.analysis.linearization.period import differentiate
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission

@@ -11,10 +11,9 @@ import pytest
 from listings import LISTINGS
 
 import tandemlift as tl
-from tandemlift.analysis.linearization.loop_margins import ON_CIRCLE
-from tandemlift.analysis.robustness.structured import Worst, growing, structured_tier, worst_mission
-from tandemlift.analysis.robustness.uncertain_loop import DeviatingLoop
-from tandemlift.analysis.robustness.uncertainty import (
+from tandemlift.analysis.certification.structured import Worst, growing, structured_tier, worst_mission
+from tandemlift.analysis.certification.uncertain_loop import DeviatingLoop
+from tandemlift.analysis.certification.uncertainty import (
     MOST,
     family_at,
     hovers_of,
@@ -22,6 +21,7 @@ from tandemlift.analysis.robustness.uncertainty import (
     rational,
     uncertain_tables,
 )
+from tandemlift.analysis.linearization.loop_margins import ON_CIRCLE
 from tandemlift.core.errors import InputError
 from tandemlift.missions import check, load_mission, mission_from_text, tables_of
 

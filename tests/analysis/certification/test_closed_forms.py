@@ -12,12 +12,11 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from tandemlift.analysis.linearization.loop_margins import calm_mission
-from tandemlift.analysis.robustness import uncertain_loop as loops
-from tandemlift.analysis.robustness import uncertainty
-from tandemlift.analysis.robustness.structured import Worst, alone, within_steps, worst_mission, worst_of
-from tandemlift.analysis.robustness.uncertain_loop import DeviatingLoop, found_factor, proven_factor, uncertain_loop
-from tandemlift.analysis.robustness.uncertainty import (
+from tandemlift.analysis.certification import uncertain_loop as loops
+from tandemlift.analysis.certification import uncertainty
+from tandemlift.analysis.certification.structured import Worst, alone, within_steps, worst_mission, worst_of
+from tandemlift.analysis.certification.uncertain_loop import DeviatingLoop, found_factor, proven_factor, uncertain_loop
+from tandemlift.analysis.certification.uncertainty import (
     Family,
     Hovers,
     Trim,
@@ -26,6 +25,7 @@ from tandemlift.analysis.robustness.uncertainty import (
     largest_factor,
     unit_gain,
 )
+from tandemlift.analysis.linearization.loop_margins import calm_mission
 from tandemlift.missions import load_mission, mission_from_text
 
 N = 8

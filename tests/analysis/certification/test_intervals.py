@@ -9,9 +9,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from tandemlift.analysis.robustness.intervals import Interval, bounds
-from tandemlift.analysis.robustness.nonlinear import box_of
-from tandemlift.analysis.robustness.thrust_bounds import commanded_thrusts
+from tandemlift.analysis.certification.intervals import Interval, bounds
+from tandemlift.analysis.certification.nonlinear import box_of
+from tandemlift.analysis.certification.thrust_bounds import commanded_thrusts
 from tandemlift.core import algebra
 from tandemlift.missions import load_mission
 from tandemlift.simulation.pilot_api import pilot_at_start

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from listings import LISTINGS
 
-from tandemlift.analysis.robustness import cut_loop, nonlinear
-from tandemlift.analysis.robustness.nonlinear import nonlinear_tier
-from tandemlift.analysis.robustness.sector_bound import (
+from tandemlift.analysis.certification import cut_loop, nonlinear
+from tandemlift.analysis.certification.nonlinear import nonlinear_tier
+from tandemlift.analysis.certification.sector_bound import (
     LoopPart,
     Plant,
     Sectors,
@@ -25,7 +25,7 @@ from tandemlift.analysis.robustness.sector_bound import (
     tolerated,
     without_resting_modes,
 )
-from tandemlift.analysis.robustness.thrust_bounds import rotor_axes
+from tandemlift.analysis.certification.thrust_bounds import rotor_axes
 from tandemlift.core.errors import InputError
 from tandemlift.missions import load_mission
 

@@ -1,1 +1,0 @@
-"""Bounds for a certificate: what a certificate is made of, all parameters at once, thrust limits and switching."""
