@@ -366,7 +366,7 @@ def test_what_is_no_table_or_no_log_is_refused(table, tmp_path):
     with pytest.raises(tl.InputError, match="line 3 has 1 cells, the line of names 2"):
         tl.read_log(table, COLUMNS)
     with pytest.raises(tl.InputError, match=r"must be a flight \(.npz\), a bag"):
-        tl.read_log(tmp_path / "flight.txt")
+        tl.read_log(tmp_path / "flight.doc")
     (tmp_path / "map.toml").write_text("no toml")
     with pytest.raises(tl.InputError, match=r"map\.toml: "):
         tl.read_log(table, tmp_path / "map.toml")

@@ -152,7 +152,7 @@ def _check_rates(log: Log) -> None:
         raise _wrong(log, name, f"gyroscope and attitude contradict each other ({numbers}); it seems to be {text}")
 
 
-def acceleration(log: Log) -> Stream:
+def acceleration(log: Mapping[str, Stream]) -> Stream:
     """The acceleration [m/s²] of the accelerometer, world axes, with the attitude of the log."""
     time, force = log[FORCE]
     return Stream(time, rotated(log[ATTITUDE].at(time), force) - [0.0, 0.0, GRAVITY])

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -25,6 +26,7 @@ UNITS = {POSITION: (1.0, "m"), VELOCITY: (1.0, "m/s"), ATTITUDE: (180.0 / np.pi,
 OFTEN = 0.02  # of the samples: more steps are noise
 UNUSUAL = 15.0  # standard deviations of the usual difference
 FEWEST = 20  # samples
+PART, MARGIN = 50_000, 1.0  # samples that are looked at at once, and s beyond them
 MOST_SAID = 5  # resets that notes tell of one by one
 SAME = 0.1  # s: resets of a stream that are closer are one
 
@@ -52,16 +54,35 @@ def turns(q: Array) -> Array:
 
 
 def resets(log: Log) -> list[Reset]:
-    """The resets that the streams of a log show against each other."""
-    slopes: dict[str, Stream] = {}
-    if VELOCITY in log:
-        slopes[POSITION] = log[VELOCITY]
-    if {ATTITUDE, IMU[0]} <= {*log}:
-        slopes[VELOCITY] = acceleration(log)
-    if IMU[1] in log:
-        slopes[ATTITUDE] = log[IMU[1]]
-    found = [reset for name, slope in slopes.items() if name in log for reset in _steps(name, log[name], slope)]
+    """The resets that the streams of a log show against each other; parts of a long one are looked at one by one."""
+    watched = [log[name] for name in (*IMU, *MOTION) if name in log]
+    most = max((len(stream.time) for stream in watched), default=0)
+    if not most:
+        return []
+    ends = [min(float(s.time[0]) for s in watched), max(float(s.time[-1]) for s in watched)]
+    edges = np.linspace(*ends, 1 + -(-most // PART))
+    found = list[Reset]()
+    for begin, end in pairwise(edges.tolist()):
+        part = {
+            name: Stream(
+                *(v[slice(*np.searchsorted(log[name].time, [begin - MARGIN, end + MARGIN]))] for v in log[name])
+            )
+            for name in (*IMU, *MOTION)
+            if name in log
+        }
+        found += [r for r in _shown({n: s for n, s in part.items() if len(s.time)}) if begin < r.time <= end]
     return sorted(found, key=lambda reset: reset.time)
+
+
+def _shown(streams: dict[str, Stream]) -> list[Reset]:
+    slopes: dict[str, Stream] = {}
+    if VELOCITY in streams:
+        slopes[POSITION] = streams[VELOCITY]
+    if {ATTITUDE, IMU[0]} <= {*streams}:
+        slopes[VELOCITY] = acceleration(streams)
+    if IMU[1] in streams:
+        slopes[ATTITUDE] = streams[IMU[1]]
+    return [r for name, slope in slopes.items() if name in streams for r in _steps(name, streams[name], slope)]
 
 
 def _steps(name: str, stream: Stream, slope: Stream) -> list[Reset]:

@@ -10,7 +10,9 @@ import struct
 from array import array
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import redirect_stderr
 from functools import reduce
+from io import StringIO
 from pathlib import Path
 from typing import Any, NamedTuple
 from zlib import crc32
@@ -155,19 +157,20 @@ def dataflash_tables(path: Path, wanted: Wanted) -> LogTables:
     """The messages of a DataFlash log of ArduPilot, binary or text, by their names."""
     with extra("logs", "a log of ArduPilot"):
         from pymavlink.DFReader import DFReader_binary, DFReader_text
-    binary = path.open("rb").read(2) == b"\xa3\x95"
+    with path.open("rb") as file:
+        kind = DFReader_binary if file.read(2) == b"\xa3\x95" else DFReader_text
     found = defaultdict[str, dict[str, "array[float]"]](lambda: defaultdict(lambda: array("d")))
     try:
-        log = (DFReader_binary if binary else DFReader_text)(str(path))
-        while (message := log.recv_match(type=[*wanted])) is not None:
-            own = found[message.get_type()]
-            for name, value in zip(
-                message.get_fieldnames(), map(message.__getattr__, message.get_fieldnames()), strict=True
-            ):
-                if isinstance(value, int | float):
-                    own[name].append(value)
+        with redirect_stderr(StringIO()):  # it tells of every byte that it passes over
+            log = kind(str(path))
+            while (message := log.recv_match(type=[*wanted])) is not None:
+                own = found[message.get_type()]
+                for name in message.get_fieldnames():
+                    if isinstance(value := getattr(message, name), int | float):
+                        own[name].append(value)
         there = sorted(log.name_to_id)
-    except (InputError, OSError):
+        log.close()
+    except OSError:
         raise
     except Exception as error:  # all errors that arbitrary content can cause in the reader
         raise InputError(f"{path}: cannot be read as a log of ArduPilot ({error})") from error

@@ -133,6 +133,11 @@ def _read(path: Path, own: Map, format: str) -> Log:
     for way in (way for many in ways.values() for way in many):
         for topic in way.topics:
             wanted[topic] += [*way.needs, *(COUNTED if way.topic else ())]
+    if not (is_text or is_bag or format or kind in (".c3d", ".mf4")):
+        raise InputError(
+            f"{path}: must be a flight (.npz), a bag (.bag, .mcap or its folder), a ULog (.ulg), a table (.csv, .txt, "
+            ".tsv), a log of ArduPilot (.bin, .log), a C3D file (.c3d) or an MDF file (.mf4)"
+        )
     if not ways:
         kinds = "a .csv, .txt or .tsv, a C3D or an MDF file needs a map of its columns to streams, or a format"
         raise InputError(f"{path}: {kinds}; see docs/how-to/log-a-vehicle.md")
@@ -149,11 +154,6 @@ def _read(path: Path, own: Map, format: str) -> Log:
         return _log(path, readers[kind](path, wanted), ways, given)
     if kind in (".c3d", ".mf4"):
         return _log(path, (log_tables.c3d_tables if kind == ".c3d" else log_tables.mdf_tables)(path), ways, given)
-    if not is_bag:
-        raise InputError(
-            f"{path}: must be a flight (.npz), a bag (.bag, .mcap or its folder), a ULog (.ulg), a table (.csv, .txt, "
-            ".tsv), a log of ArduPilot (.bin, .log), a C3D file (.c3d) or an MDF file (.mf4)"
-        )
     tables = log_tables.bag_tables(path, wanted)
     if not given and {MISSION.name, BASE} <= {*tables.there}:
         return log_of(read_bag(path))

@@ -241,11 +241,13 @@ def read_table(path: Path, wanted: Iterable[str], settings: Any, kind: str = "")
             columns = _read(path, file, layout, [n for n in dict.fromkeys(needed) if n in names])
     except (UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{path}: cannot be read as a table ({error})") from error
-    scaled = {name: values * layout.factors.get(name, 1.0) for name, values in columns.items()}
-    scaled |= {name: of(*(columns[n] for n in own)) for name, (own, of) in layout.made.items()}
+    for name, factor in layout.factors.items():
+        if name in columns and factor != 1.0:
+            columns[name] = columns[name] * factor
+    columns |= {name: of(*(columns[n] for n in own)) for name, (own, of) in layout.made.items()}
     notes = [f"{path}: read as Windows' cp1252, since it is not UTF-8"] * (encoding == "cp1252")
     notes += [f"{path}: read with a decimal comma"] * (layout.decimal == "," and settings.decimal is None)
-    return TextTable((*layout.made, *names), scaled, layout.units, tuple(notes))
+    return TextTable((*layout.made, *names), columns, layout.units, tuple(notes))
 
 
 OWN_NAME = "one that is read must have its own name; names_line = [1, 2] joins the names of two lines as Upper.Lower"
