@@ -280,7 +280,7 @@ def _read(path: Path, file: Iterator[str], layout: Layout, names: Sequence[str])
         if separator is None
         else csv.reader(below, delimiter=separator, skipinitialspace=True)  # quoted cells may have separators in them
     )
-    line, is_cut = layout.first + 1, _is_cut(path)
+    line, is_cut = layout.first + 1, _is_cut(path, layout.encoding)
     while rows := list(itertools.islice(reader, BATCH)):
         kept, numbers = _whole(path, rows, layout, line, is_cut)
         for column, place in zip(found, places, strict=True):
@@ -293,11 +293,11 @@ def _read(path: Path, file: Iterator[str], layout: Layout, names: Sequence[str])
     return {name: np.frombuffer(column) for name, column in zip(names, found, strict=True)}
 
 
-def _is_cut(path: Path) -> bool:
+def _is_cut(path: Path, encoding: str) -> bool:
     """Whether the last line of a file has no end, as after a crash."""
     with path.open("rb") as file:
-        file.seek(-1, 2)
-        return file.read(1) not in (b"\n", b"\r", b"\0")
+        file.seek(-2 if encoding.startswith("utf-16") else -1, 2)
+        return not {*file.read()} & {*b"\r\n"}
 
 
 def _whole(
