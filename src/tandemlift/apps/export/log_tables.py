@@ -19,13 +19,13 @@ from zlib import crc32
 
 import numpy as np
 
+from tandemlift.analysis.logs.maps import TIME  # of a bag: the stamps [s] of messages, from the first one of all
 from tandemlift.apps.export.messages import SECOND
 from tandemlift.apps.export.reading import reading_bag, stamp_of
 from tandemlift.apps.export.text_tables import TextTable
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.types import Array
 
-TIME = "time"  # the column of a bag's topic with the stamps of its messages [s], from the first one of all
 ARRIVAL = "arrival"  # that with the times [s] at which the messages were recorded
 ONE_CLOCK = 60 * SECOND  # ns: stamps and arrivals that begin as close together are of one clock
 CARD_MAGIC = 0xBC

@@ -21,19 +21,7 @@ from numpy.typing import NDArray
 from tandemlift.analysis.logs.checks import check_stamps
 from tandemlift.analysis.logs.clocks import GAP, synchronised
 from tandemlift.analysis.logs.log import MOTION, Log, Stream, log_of, quaternion_product
-from tandemlift.analysis.logs.resets import Reset, with_resets
-from tandemlift.analysis.logs.stamps import (
-    check_order,
-    check_overlap,
-    check_rate,
-    distinct,
-    gaps,
-    has_stamp,
-    stamped,
-)
-from tandemlift.apps.export import log_tables
-from tandemlift.apps.export.coordinate_frames import to_world
-from tandemlift.apps.export.log_map import (
+from tandemlift.analysis.logs.maps import (
     FORMATS,
     OF_ALL,
     OF_TABLE,
@@ -49,6 +37,18 @@ from tandemlift.apps.export.log_map import (
     table_settings,
     ways_of,
 )
+from tandemlift.analysis.logs.resets import Reset, with_resets
+from tandemlift.analysis.logs.stamps import (
+    check_order,
+    check_overlap,
+    check_rate,
+    distinct,
+    gaps,
+    has_stamp,
+    stamped,
+)
+from tandemlift.apps.export import log_tables
+from tandemlift.apps.export.coordinate_frames import to_world
 from tandemlift.apps.export.log_tables import LogTables
 from tandemlift.apps.export.reading import BASE, read_bag
 from tandemlift.apps.export.text_tables import read_table

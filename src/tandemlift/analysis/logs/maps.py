@@ -10,7 +10,6 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, ValidationError
 
 from tandemlift.analysis.logs.log import MOTION, stream_channel
-from tandemlift.apps.export.log_tables import TIME
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.files import toml_tables
 from tandemlift.core.keys import Table
@@ -57,6 +56,7 @@ FORMATS = {
 """The formats that have a map of ours, and its file in `data/logs`."""
 
 Map = Mapping[str, Any]
+TIME = "time"  # the column of stamps, if a map does not say it
 OF_ALL, OFFSET = ("time", "time_unit", "up"), "stamp_offset"  # keys of all streams at once, and of the log
 OF_TABLE = ("separator", "decimal", "names_line", "rigid_body")  # keys of `TableSettings`
 ROTATION_VECTOR = "rotation vector"
