@@ -59,8 +59,8 @@ def resets(log: Log) -> list[Reset]:
     most = max((len(stream.time) for stream in watched), default=0)
     if not most:
         return []
-    ends = [min(float(s.time[0]) for s in watched), max(float(s.time[-1]) for s in watched)]
-    edges = np.linspace(*ends, 1 + -(-most // PART))
+    first, last = min(float(s.time[0]) for s in watched), max(float(s.time[-1]) for s in watched)
+    edges = np.linspace(first, last, 1 + -(-most // PART))
     found = list[Reset]()
     for begin, end in pairwise(edges.tolist()):
         part = {

@@ -56,15 +56,16 @@ def has_stamp(time: Array) -> Rows:
     return np.asarray(there & ((time != 0.0) | begins))
 
 
-def stamped(place: str, time: Array) -> Stamped:
+def stamped(place: str, time: Array, valued: Rows | None = None) -> Stamped:
     """The rows of a column of stamps [s] that have one, with counters continued.
 
     Args:
         place: the stream and file, for messages.
         time: the column (n,), NaN where it is empty.
+        valued: the rows that have readings; None for all.
     """
     rows = has_stamp(time)
-    without = np.flatnonzero(~rows)
+    without = np.flatnonzero(~rows if valued is None else valued & ~rows)
     notes = list[str]()
     if len(without) and rows.any():
         which = f"row {without[0]}" if len(without) == 1 else f"{len(without)} rows, the first is row {without[0]}"
@@ -88,7 +89,7 @@ def continued(time: Array) -> tuple[Array, str]:
     return time, ""
 
 
-def check_order(place: str, time: Array, rows: Array | None = None) -> None:
+def check_order(place: str, time: Array, rows: NDArray[np.intp] | None = None) -> None:
     """Refuse stamps [s] that go back.
 
     Args:

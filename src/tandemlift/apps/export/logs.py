@@ -127,7 +127,7 @@ def _read(path: Path, own: Map, format: str) -> Log:
     known = map_in(DATA / "logs" / FORMATS[format]) if format else map_in(DATA / "logs" / "bag.toml") if is_bag else {}
     common = {key: known[key] for key in (*OF_ALL, *OF_TABLE) if key in known}
     settings = table_settings({key: value for key, value in (common | dict(own)).items() if key in OF_TABLE})
-    given, ways = ways_of(common | dict(own)), ways_of(known | {key: own[key] for key in OF_ALL if key in own})
+    given, ways = ways_of(common | dict(own)), ways_of({**known, **{key: own[key] for key in OF_ALL if key in own}})
     ways |= given
     wanted = defaultdict[str, list[str]](list)
     for way in (way for many in ways.values() for way in many):
@@ -237,16 +237,14 @@ def _has_columns(way: Way, tables: LogTables, topic: str) -> bool:
 def _turned(place: str, way: Way, values: Array, parts: int) -> Array:
     """The values of a way's columns in our units, axes and, of an attitude, as quaternions."""
     width = values.shape[1] // parts
+    numbers = list[Any]()
     for key, number in (("offset", way.offset), ("scale", way.scale)):
         if isinstance(number, tuple) and len(number) != width:
             raise InputError(f"{place}: {key} has {len(number)} numbers for {width} columns")
-        own: Any = np.array(number * parts if isinstance(number, tuple) else number)
-        values = values + own if key == "offset" and np.any(own) else values
-        values = (
-            values * (own * factor_of(way.unit))
-            if key == "scale" and np.any(own * factor_of(way.unit) != 1.0)
-            else values
-        )
+        numbers.append(np.array(number * parts if isinstance(number, tuple) else number))
+    offset, factor = numbers[0], numbers[1] * factor_of(way.unit)
+    values = values + offset if np.any(offset != 0.0) else values
+    values = values * factor if np.any(factor != 1.0) else values
     values = quaternions_of(values, way.angles) if way.angles else values
     if way.up == "y":
         values = values.copy()
@@ -281,16 +279,16 @@ def _part(place: str, way: Way, tables: LogTables, topic: str) -> tuple[Stream, 
     """(The samples of one topic that have a number and a stamp, in order, and sentences about what was mended)."""
 
     def column(name: str) -> Array:
-        try:
-            return tables.column(topic, name)
-        except KeyError:
-            raise InputError(f"{place}: {unknown('column', name, tables.columns(topic))}") from None
+        return _column(place, tables, topic, name)
 
     _check_units(place, way, tables)
-    own = [np.asarray(column(name)) for name in way.columns]
-    time, notes = _stamps(place, way, tables, topic, column)
-    rows = own[0] if len(own) == 1 and own[0].ndim == 2 else np.column_stack([v.reshape(len(time), -1) for v in own])
-    some = np.isfinite(time) & np.any([np.isfinite(v) for v in rows.T], axis=0)
+    own = [column(name) for name in way.columns]
+    rows = own[0] if len(own) == 1 and own[0].ndim == 2 else np.column_stack([v.reshape(len(v), -1) for v in own])
+    some = np.isfinite(rows[:, 0])
+    for v in rows.T[1:]:
+        some |= np.isfinite(v)
+    time, notes = _stamps(place, way, tables, topic, some)
+    some &= np.isfinite(time)
     for name, allowed in way.where.items():
         some &= np.isin(column(name) if name in tables.columns(topic) else np.zeros(len(time)), allowed)
     if way.time_offset:
@@ -309,14 +307,26 @@ def _is_euler(way: Way) -> bool:
     return way.angles not in ("", ROTATION_VECTOR)
 
 
-def _stamps(place: str, way: Way, tables: LogTables, topic: str, column: Any) -> tuple[Array, tuple[str, ...]]:
+def _column(place: str, tables: LogTables, topic: str, name: str) -> Array:
+    try:
+        return tables.column(topic, name)
+    except KeyError:
+        raise InputError(f"{place}: {unknown('column', name, tables.columns(topic))}") from None
+
+
+def _stamps(
+    place: str, way: Way, tables: LogTables, topic: str, valued: NDArray[np.bool_]
+) -> tuple[Array, tuple[str, ...]]:
     """(The stamps [s] of a topic's rows, NaN where there is none, sentences about what was mended)."""
     there = [name for name in way.stamps if name in tables.columns(topic)]
     columns = [*(there or way.stamps[:1]), *([tables.arrival] if tables.arrival else [])]
-    times = {name: column(name) * factor_of("s" if name == tables.arrival else way.time_unit) for name in columns}
-    taken = next((name for name, time in times.items() if np.mean(~has_stamp(time)) <= MISSING), columns[0])
+    units = {name: "s" if name == tables.arrival else way.time_unit for name in columns}
+    times = {name: _column(place, tables, topic, name) * factor_of(unit) for name, unit in units.items()}
+    taken = columns[0]
+    if valued.any():
+        taken = next((name for name in columns if np.mean(~has_stamp(times[name])[valued]) <= MISSING), taken)
     time = times[taken]
-    rows, kept, mended = stamped(f"{place}: column {taken}", time)
+    rows, kept, mended = stamped(f"{place}: column {taken}", time, valued)
     if not len(kept):
         raise InputError(f"{place}: all its stamps in {', '.join(columns)} are empty or 0")
     if not rows.all() or mended:
@@ -350,11 +360,10 @@ def _counted(name: str, found: Found, tables: LogTables, first: float) -> Iterab
     for counter, (stream, sizes) in COUNTED.items():
         if counter in known and (stream or name) == name and name in MOTION:
             counts = tables.column(found.topic, counter)
-            time, _ = _stamps(name, found.way, tables, found.topic, lambda n: tables.column(found.topic, n))
+            time, _ = _stamps(name, found.way, tables, found.topic, np.isfinite(counts))
             parts = [tables.column(found.topic, n) for n in sorted(known) if sizes and n.partition("[")[0] == sizes]
             for row in np.flatnonzero(np.diff(counts) != 0.0) + 1:
                 delta = np.array([part[row] for part in parts])
-                size = (
-                    2.0 * math.acos(min(1.0, abs(float(delta[0])))) if len(delta) == 4 else float(np.linalg.norm(delta))
-                )
-                yield Reset(name, float(time[row]) - first, size if parts else math.nan)
+                length = float(np.linalg.norm(delta)) if parts else math.nan
+                size = 2.0 * math.acos(min(1.0, abs(float(delta[0])))) if len(delta) == 4 else length
+                yield Reset(name, float(time[row]) - first, size)

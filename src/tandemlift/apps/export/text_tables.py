@@ -24,12 +24,13 @@ from tandemlift.core.errors import InputError, shown
 from tandemlift.core.types import Array
 
 SEPARATORS = (",", ";", "\t", "|", None)  # None: blanks
-HEAD = 64  # lines in which the names are sought
+HEAD = 400  # lines in which the names are sought
 UNIT_LINES = 4  # lines, at most, between names and numbers
 BATCH = 20_000  # lines that are parsed at once
 COMMENT = ("#", "%", "//")
 NOTHING = {"", "nan", "na", "n/a", "null", "none", "-"}  # cells without a number
 DECIMAL_COMMA = re.compile(r"\s*[-+]?\d+,\d+([eE][-+]?\d+)?\s*")
+THOUSANDS = re.compile(r"\s*[-+]?[1-9]\d{0,2},\d{3}\s*")
 UNIT_IN_NAME = re.compile(r"(.*?)\s*[(\[](.*)[)\]]\s*")
 LENGTHS = {"Meters": 1.0, "Centimeters": 0.01, "Millimeters": 0.001, "Inches": 0.0254, "Feet": 0.3048}
 VICON_UNITS = {"mm": 1e-3, "m": 1.0, "cm": 1e-2, "deg": math.pi / 180.0, "rad": 1.0, "": 1.0}
@@ -204,7 +205,7 @@ def vicon_layout(path: Path, head: Sequence[str], encoding: str, rigid_body: str
 def _one_of(path: Path, names: Sequence[str], chosen: str | None) -> str:
     if chosen is None and len(names) == 1:
         return names[0]
-    if chosen not in names:
+    if chosen is None or chosen not in names:
         given = "must say which" if chosen is None else f"rigid_body = {shown(chosen)}"
         raise InputError(f"{path}: {given}: rigid_body must be one of {', '.join(names)}")
     return chosen
@@ -231,7 +232,7 @@ def read_table(path: Path, wanted: Iterable[str], settings: Any, kind: str = "")
                 layout = made(path, head, encoding, settings.rigid_body)
             else:
                 layout = find_layout(path, head, encoding, asked, settings)
-            layout = _with_numbers(layout, head, asked, settings.decimal)
+            layout = _with_numbers(path, layout, head, asked, settings.decimal)
             names = [name for name in layout.names if name]
             needed = [*asked, *(n for own, _ in layout.made.values() for n in own)]
             for name in asked:
@@ -253,10 +254,10 @@ def read_table(path: Path, wanted: Iterable[str], settings: Any, kind: str = "")
 OWN_NAME = "one that is read must have its own name; names_line = [1, 2] joins the names of two lines as Upper.Lower"
 
 
-def _with_numbers(layout: Layout, head: Sequence[str], asked: Sequence[str], decimal: str | None) -> Layout:
+def _with_numbers(path: Path, layout: Layout, head: Sequence[str], asked: Sequence[str], decimal: str | None) -> Layout:
     """A layout with the line of its first numbers, what a line above them says of units, and its decimal sign."""
     places = {name: layout.names.index(name) for name in asked if name in layout.names}
-    units, first, commas = dict(layout.units), layout.first, False
+    units, first, commas = dict(layout.units), layout.first, list[str]()
     for i in range(layout.first, len(head)):
         row = _cells(head[i], layout.separator)
         cells = {name: row[k] for name, k in places.items() if k < len(row) and row[k].lower() not in NOTHING}
@@ -264,8 +265,10 @@ def _with_numbers(layout: Layout, head: Sequence[str], asked: Sequence[str], dec
         if not numbers and (not row or not row[0] or cells) and i < layout.first + UNIT_LINES and first == i:
             units |= {name: cell.strip("()[] ") for name, cell in cells.items()}
             first = i + 1
-        commas = commas or any(DECIMAL_COMMA.fullmatch(cell) for cell in numbers)
-    comma = decimal is None and layout.separator != "," and commas
+        commas += [cell for cell in numbers if DECIMAL_COMMA.fullmatch(cell)]
+    comma = decimal is None and bool(commas)
+    if comma and all(map(THOUSANDS.fullmatch, commas)):
+        raise InputError(f'{path}: is {commas[0]} a number of thousands? Say decimal = "." or decimal = ","')
     return replace(layout, first=first, units=units, decimal="," if comma else layout.decimal)
 
 

@@ -27,7 +27,7 @@ static double *number(FmuInstance *instance, uint32_t reference, bool writes)
     }
     if (at < FMU_PARAMETERS) {
         if (writes && !starts && !(model->mode == FMU_STEPPING && fmu_is_tunable((uint32_t)at))) {
-            fmu_report(instance, true, "%s: is a fixed parameter, and set before the end of initialization only",
+            fmu_report(instance, true, "%s: is a parameter, and set before the end of initialization only",
                 fmu_key((uint32_t)at));
             return 0;
         }
