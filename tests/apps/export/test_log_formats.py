@@ -240,6 +240,42 @@ def test_a_log_of_ardupilot_is_read_from_its_first_imu_and_core(tmp_path):
         tl.read_log(tmp_path / "no.bin")
 
 
+# ---- `rostopic echo -p`: names of fields in order, nested by points, numbers of arrays without a point
+
+
+def rostopic_csv(folder):
+    """A topic of each kind, as Debian's rostopic 1.15 writes it from a bag."""
+    head = "%time,field.header.seq,field.header.stamp,field.header.frame_id"
+    q = TURN.as_quat()
+    angular = [f"field.angular_velocity.{a}" for a in "xyz"] + [f"field.linear_acceleration.{a}" for a in "xyz"]
+    pose = [f"field.pose.position.{a}" for a in "xyz"] + [f"field.pose.orientation.{a}" for a in "xyzw"]
+    for name, fields, values in (
+        ("imu_data", angular, np.hstack([GYRO, FELT])),
+        ("vrpn_pose", pose, np.hstack([POSITION, q])),
+        ("ft_left", [f"field.wrench.force.{a}" for a in "xyz"], GYRO),
+        ("ft_right", [f"field.wrench.force.{a}" for a in "xyz"], 2.0 * GYRO),
+    ):
+        rows = [",".join([head, *fields])]
+        for k in range(N):
+            stamp = 1_700_000_000_000_000_000 + round(1e9 * TIME[k])
+            rows.append(",".join([str(stamp + 7_000_000), str(k), str(stamp), "world", *map(str, values[k].tolist())]))
+        (folder / f"{name}.csv").write_text("\n".join(rows) + "\n")
+    return folder
+
+
+def test_topics_that_rostopic_wrote_are_read_from_a_file_or_a_folder(tmp_path):
+    folder = rostopic_csv(tmp_path)
+    log = tl.read_log(folder, format="rosbag-csv")
+    holds(log, rates=GYRO, specific_force=FELT, position=POSITION)
+    assert same_turn(log[ATTITUDE].values)
+    force = {"topic": ["ft_left", "ft_right"], "columns": [f"field.wrench.force.{a}" for a in "xyz"]}
+    holds(
+        tl.read_log(folder, {"measured_joint_force": force}, format="rosbag-csv"),
+        joint_force=np.hstack([GYRO, 2.0 * GYRO]),
+    )
+    holds(tl.read_log(folder / "imu_data.csv", format="rosbag-csv"), rates=GYRO)
+
+
 # ---- C3D by ezc3d, MDF by asammdf
 
 

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from tandemlift.analysis.logs.checks import check_stamps
 from tandemlift.analysis.logs.clocks import GAP, synchronised
-from tandemlift.analysis.logs.log import MOTION, Log, Stream, log_of, quaternion_product
+from tandemlift.analysis.logs.log import IMU, MOTION, Log, Stream, log_of, quaternion_product
 from tandemlift.analysis.logs.maps import (
     FORMATS,
     OF_ALL,
@@ -184,7 +184,7 @@ def _log(path: Path, tables: LogTables, ways: Mapping[str, list[Way]], asked: Co
         there = ", ".join(tables.there or tables.topics) or "no number there"
         raise InputError(f"{path}: has no samples for {missing[0]} in {wanted}; it has {there}")
     streams = {name: one.stream for name, one in found.items()}
-    for name, one in found.items():
+    for name, one in sorted(found.items(), key=lambda item: item[0] not in IMU):  # whose rate tells the most
         check_rate(str(path), name, one.stream.time, one.way.time_unit)
         if one.way.frame:
             streams[name] = _in_world(f"{path}: stream {name}", streams[name], streams.get(MOTION[2]))

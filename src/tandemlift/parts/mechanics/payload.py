@@ -16,7 +16,7 @@ from tandemlift.core.keys import Exactly3, PerAxis, Positive, Positive3, Size, T
 from tandemlift.core.types import Array
 from tandemlift.parts.mechanics.bodies import Body, ConvexHull, Place, Sides, box_hull, check_corners, convex_hull
 
-SLENDER = 10.0  # diameters, from which a beam is a thin rod
+SLENDER = 10.0  # diameters, from which a beam is the thin rod of the paper's Table II: its inertia is 0.8 % less
 
 
 def _principal(inertia: Triple) -> Triple:
@@ -151,10 +151,7 @@ class Payload(
 
     @property
     def moments(self) -> Triple:
-        """Jx, Jy, Jz [kg m²]: as given, of an even box, or of an even cylinder along y.
-
-        A beam of at least ten diameters is the thin rod of the paper's Table II across, m L²/12: at most 0.8 % less.
-        """
+        """Jx, Jy, Jz [kg m²]: as given, of an even box, or of an even cylinder along y, a thin rod if slender."""
         if self.inertia is not None:
             return self.inertia
         if self.size is not None:
@@ -163,7 +160,7 @@ class Payload(
         length, radius = self._rod
         across = self.mass * length**2 / 12.0
         if length < 2.0 * SLENDER * radius:
-            across = self.mass * (length**2 / 12.0 + radius**2 / 4.0)
+            across += self.mass * radius**2 / 4.0
         return (across, self.mass * radius**2 / 2.0, across)
 
     @property

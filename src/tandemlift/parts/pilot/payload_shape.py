@@ -103,10 +103,9 @@ def _body(path: str, changed: int, scale: float) -> MeshBody:
             f"{given}: is inside out, with a volume of {volume:g} m³: its triangles must be turned outside"
         )
     if (deep := _layers(np.asarray(mesh.triangles, dtype=float))) is not None:
-        layers, place = deep
-        why = "bodies overlap, or an inner surface is turned outside" if layers > 0 else "a body is inside out"
-        at = ", ".join(f"{x:.3g}" for x in place)
-        raise InputError(f"{given}: its {volume:.4g} m³ count the place ({at}) m {layers} times: {why}")
+        why = "bodies overlap, or an inner surface is turned outside" if deep[0] > 0 else "a body is inside out"
+        at = np.round(deep[1], 3).tolist()
+        raise InputError(f"{given}: its {volume:.4g} m³ count the place {at} m {deep[0]} times: {why}")
     hull, out = few_corners(np.asarray(mesh.vertices, dtype=float))
     if out > ROUGH * extent:
         text = f"{given}: sticks out of its convex hull of {MOST_CORNERS} corners, which touches, by {out:.2g} m"
@@ -116,37 +115,32 @@ def _body(path: str, changed: int, scale: float) -> MeshBody:
 
 
 def _open(mesh: Any) -> str:
-    """How many edges of a mesh have one triangle, or more than two; where; and what can be done."""
+    """How many edges of a mesh have not two triangles, where, and what can be done."""
     edges, counts = np.unique(mesh.edges_sorted, axis=0, return_counts=True)
-    amiss = edges[counts != 2]
-    if not len(amiss):
+    if not np.any(counts != 2):
         return ": some triangles are turned inside"
-    places = mesh.vertices[amiss.ravel()]
-    where = " to ".join("(" + ", ".join(f"{x:.3g}" for x in end) + ")" for end in (places.min(0), places.max(0)))
+    places = np.round(mesh.vertices[edges[counts != 2].ravel()], 3)
+    found = f"{int(np.sum(counts != 2))} of {len(edges)} edges have not two triangles"
     way = 'close it where it is drawn, or give mass, inertia and corners of its hull with shape = "mesh"'
-    return f": {len(amiss)} of {len(edges)} edges have not two triangles, from {where} m: {way}"
+    return f": {found}, from {places.min(0).tolist()} to {places.max(0).tolist()} m: {way}"
 
 
 def _layers(triangles: Array) -> tuple[int, Array] | None:
     """(How many times a surface winds round a place under it, the place [m]), if that is not once anywhere.
 
     The winding number is the sum of the solid angles of all triangles over 4π (Jacobson et al., ACM Trans. Graph. 32,
-    2013), with that of one triangle by van Oosterom and Strackee (IEEE Trans. Biomed. Eng. 30, 1983). Places are spread
-    evenly over the surface, under it by a hundred thousandth of a triangle's size: walls are thicker.
+    2013; of one by van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30, 1983). Places are spread evenly over the
+    surface, under it by a hundred thousandth of a triangle's size: walls are thicker.
     """
     corners = np.ascontiguousarray(triangles.transpose(1, 0, 2))
     normals = np.cross(corners[1] - corners[0], corners[2] - corners[0])
     sizes = np.linalg.norm(normals, axis=1)
-    count = int(np.clip(COUNTED / len(sizes), *PLACES))
-    every = np.arange(count)
-    chosen = np.searchsorted(np.cumsum(sizes), (every + 0.5) / count * sizes.sum())
+    every = np.arange(int(np.clip(COUNTED / len(sizes), *PLACES)))
+    chosen = np.searchsorted(np.cumsum(sizes), (every + 0.5) / len(every) * sizes.sum())
     u, v = (0.5 + np.outer(SPREAD, every)) % 1.0
     u, v = np.where(u + v > 1.0, 1.0 - u, u), np.where(u + v > 1.0, 1.0 - v, v)
-    weights = np.stack([1.0 - u - v, u, v])
-    places = np.einsum("kn,kni->ni", weights, corners[:, chosen]) - 1e-5 * normals[chosen] / np.sqrt(
-        sizes[chosen, None]
-    )
-    for place in places:
+    on = np.einsum("kn,kni->ni", np.stack([1.0 - u - v, u, v]), corners[:, chosen])
+    for place in on - 1e-5 * normals[chosen] / np.sqrt(sizes[chosen, None]):
         a, b, c = corners - place
         x, y, z = np.sqrt(np.einsum("kni,kni->kn", (a, b, c), (a, b, c)))
         ab, bc, ca = (np.einsum("ni,ni->n", p, q) for p, q in ((a, b), (b, c), (c, a)))
