@@ -22,7 +22,6 @@ import numpy as np
 from tandemlift.analysis.logs.maps import TIME  # of a bag: the stamps [s] of messages, from the first one of all
 from tandemlift.apps.export.messages import SECOND
 from tandemlift.apps.export.reading import reading_bag, stamp_of
-from tandemlift.apps.export.text_tables import TextTable
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.types import Array
 
@@ -60,12 +59,6 @@ Wanted = Mapping[str, Sequence[str]]  # columns by topic
 def arrays(tables: Mapping[str, Mapping[str, Array]], *notes: str, there: Sequence[str] = ()) -> LogTables:
     """Tables of columns by topic and name."""
     return LogTables(sorted(tables), tables.__getitem__, lambda t, n: tables[t][n], there, notes=notes)
-
-
-def text_tables(table: TextTable) -> LogTables:
-    """The one table of a text file."""
-    found = LogTables([""], lambda _: table.names, lambda _, name: table.columns[name])
-    return found._replace(units=table.units, notes=table.notes)
 
 
 def ulog_tables(path: Path, wanted: Wanted) -> LogTables:

@@ -143,8 +143,8 @@ def _read(path: Path, own: Map, format: str) -> Log:
         raise InputError(f"{path}: {kinds}; see docs/how-to/log-a-vehicle.md")
     if is_text:
         table = read_table(path, wanted[""], settings, format if format in ("optitrack", "vicon") else "")
-        check_stamps(str(path), table.names, {name: many[0].time for name, many in given.items()})
-        return _log(path, log_tables.text_tables(table), ways, given)
+        check_stamps(str(path), table.columns(""), {name: many[0].time for name, many in given.items()})
+        return _log(path, table, ways, given)
     if format == "rosbag-csv" and path.is_dir():
         return _log(path, _folder_tables(path, ways, settings), ways, given)
     if format == "crazyflie":
@@ -163,8 +163,8 @@ def _read(path: Path, own: Map, format: str) -> Log:
 def _folder_tables(path: Path, ways: Mapping[str, list[Way]], settings: TableSettings) -> LogTables:
     """The tables of a folder, one in each .csv, as `rostopic echo -p` writes them of topics."""
     every = [name for many in ways.values() for way in many for name in way.needs]
-    tables = {file.stem: read_table(file, every, settings).columns for file in sorted(path.glob("*.csv"))}
-    return log_tables.arrays(tables, there=[*tables])
+    tables = {file.stem: read_table(file, every, settings) for file in sorted(path.glob("*.csv"))}
+    return LogTables([*tables], lambda t: tables[t].columns(""), lambda t, name: tables[t].column("", name))
 
 
 def _log(path: Path, tables: LogTables, ways: Mapping[str, list[Way]], asked: Collection[str]) -> Log:

@@ -171,15 +171,15 @@ def read_curves(path: Path, wanted: Iterable[str]) -> tuple[Flight, list[str]]:
     from tandemlift.flight.record import Flight
 
     settings = TableSettings()
-    columns = list(read_table(path, ("time", "time[s]"), settings).names)
+    columns = list(read_table(path, ("time", "time[s]"), settings).columns(""))
     given = {re.sub(r"\[[^]]*\]", "", name).replace(".", "_"): name for name in columns}
     if len(given) < len(columns):
         twice = next(name for name in columns if name not in given.values())
         raise InputError(f"{path}: {twice} is a column under two names; one must go")
     if "time" not in given:
         raise InputError(f"{path}: has no column time [s]; it has {', '.join(given)}")
-    table = read_table(path, columns, settings).columns
-    time, channels, read = table[given["time"]], {}, {given["time"]}
+    table = read_table(path, columns, settings)
+    time, channels, read = table.column("", given["time"]), {}, {given["time"]}
     if len(time) < 2 or not (np.diff(time) > 0.0).all():
         raise InputError(f"{path}: time must rise from line to line, in two lines at least")
     names = {}
@@ -187,7 +187,7 @@ def read_curves(path: Path, wanted: Iterable[str]) -> tuple[Flight, list[str]]:
         info = DERIVED[name][2] if name in DERIVED else channel_of(name)
         names[name] = column_names(name, info, (info.width,) if info.width > 1 else ())
         if {*names[name]} & {*given}:
-            parts = [table[given[n]] if n in given else np.full(len(time), np.nan) for n in names[name]]
+            parts = [table.column("", given[n]) if n in given else np.full(len(time), np.nan) for n in names[name]]
             channels[name] = np.column_stack(parts) if info.width > 1 else parts[0]
             read |= {given[n] for n in names[name] if n in given}
     if not channels:

@@ -13,13 +13,14 @@ import itertools
 import math
 import re
 from array import array
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from tandemlift.apps.export.log_tables import LogTables
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.types import Array
 
@@ -41,36 +42,22 @@ class Layout:
     """How a table stands in its file.
 
     Attributes:
-        encoding: of its text.
         separator: between cells; None for blanks.
         decimal: the decimal sign.
         names: of its columns, in their order; those with "" cannot be asked for.
         first: the line, from 0, of the first numbers, or of the units above them.
         units: what a line of units, or its name, says of a column, by name.
         factors: with which numbers are multiplied, by name.
-        made: a column that is made from others, by name: those, and how.
         ends: whether an empty line ends it, with other tables below.
     """
 
-    encoding: str
     separator: str | None
     names: tuple[str, ...]
     first: int
     decimal: str = "."
     units: Mapping[str, str] = field(default_factory=dict)
     factors: Mapping[str, float] = field(default_factory=dict)
-    made: Mapping[str, tuple[Sequence[str], Callable[..., Array]]] = field(default_factory=dict)
     ends: bool = False
-
-
-@dataclass(frozen=True)
-class TextTable:
-    """A table that was read: its columns (n,) of numbers by name, all names, and sentences about how it was read."""
-
-    names: tuple[str, ...]
-    columns: Mapping[str, Array]
-    units: Mapping[str, str]
-    notes: tuple[str, ...]
 
 
 def encoding_of(path: Path) -> str:
@@ -96,13 +83,12 @@ def _cells(line: str, separator: str | None) -> list[str]:
     return [cell.strip() for cell in next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])]
 
 
-def find_layout(path: Path, head: Sequence[str], encoding: str, wanted: Iterable[str], settings: Any) -> Layout:
+def find_layout(path: Path, head: Sequence[str], wanted: Iterable[str], settings: Any) -> Layout:
     """The layout of a table whose names are in one line, or in the lines `names_line` of a map, joined by points.
 
     Args:
         path: of the file, for messages.
         head: its first lines.
-        encoding: of it.
         wanted: the columns that are asked for.
         settings: the map's `separator`, `decimal` and `names_line`; None where it does not say.
     """
@@ -129,7 +115,7 @@ def find_layout(path: Path, head: Sequence[str], encoding: str, wanted: Iterable
         raise InputError(f"{path}: has no line of names")
     _, separator, names, first = best
     units = {name: match[2] for name in names if (match := UNIT_IN_NAME.fullmatch(name))}
-    return Layout(encoding, separator, names, first, settings.decimal or ".", units)
+    return Layout(separator, names, first, settings.decimal or ".", units)
 
 
 def _joined(rows: Sequence[Sequence[str]]) -> tuple[str, ...]:
@@ -142,17 +128,15 @@ def _joined(rows: Sequence[Sequence[str]]) -> tuple[str, ...]:
     return tuple(".".join(part for part in parts if part) for parts in zip(*full, strict=True))
 
 
-def motive_layout(path: Path, head: Sequence[str], encoding: str, rigid_body: str | None) -> Layout:
+def motive_layout(path: Path, head: Sequence[str], rigid_body: str | None) -> Layout:
     """The layout of a table of OptiTrack's Motive, "Data Export: CSV": time, Rotation.X … W, Position.X … Z of a body.
 
     Lines: facts of the take, types of columns, names, identities, parents (from 3.0 on), Rotation or Position, axes.
     """
     rows = [_cells(line, ",") for line in head]
     types = next((i for i, row in enumerate(rows) if {"Rigid Body", "Bone"} & {*row}), None)
-    kinds = (
-        next((i for i in range(types or 0, len(rows)) if "Rotation" in rows[i]), None) if types is not None else None
-    )
-    if types is None or kinds is None or kinds + 1 >= len(rows):
+    kinds = next((i for i, row in enumerate(rows[:-1]) if types is not None and i > types and "Rotation" in row), None)
+    if types is None or kinds is None:
         raise InputError(f"{path}: no rigid body in it: is it a CSV of Motive, exported with rigid bodies and header?")
     facts = dict(zip(rows[0][::2], rows[0][1::2], strict=False))
     for key, right in {"Rotation Type": "Quaternion", "Coordinate Space": "Global"}.items():
@@ -168,10 +152,10 @@ def motive_layout(path: Path, head: Sequence[str], encoding: str, rigid_body: st
     names = [f"{what[i]}.{rows[kinds + 1][i]}" if i in own and body[i] == chosen else "" for i in range(width)]
     names[:2] = ["frame", "time"]
     factors = {f"Position.{axis}": LENGTHS[unit] for axis in "XYZ"}
-    return Layout(encoding, ",", tuple(names), kinds + 2, factors=factors)
+    return Layout(",", tuple(names), kinds + 2, factors=factors)
 
 
-def vicon_layout(path: Path, head: Sequence[str], encoding: str, rigid_body: str | None) -> Layout:
+def vicon_layout(path: Path, head: Sequence[str], rigid_body: str | None) -> Layout:
     """The layout of a table that Vicon's Tracker or Nexus exports: time, RX … RW, TX … TZ of an object or segment.
 
     Lines: the kind of table, its rate in Hz, names of objects, axes with Frame and Sub Frame first, units. In a table
@@ -193,13 +177,12 @@ def vicon_layout(path: Path, head: Sequence[str], encoding: str, rigid_body: str
     known = list(dict.fromkeys(name for name in short[2:] if name))
     chosen = _one_of(path, known, rigid_body and (rigid_body.rpartition(":")[2] or rigid_body))
     names = [axis if own == chosen else "" for own, axis in zip(short, rows[axes], strict=False)]
-    names[:2] = ["frame", "subframe"]
+    names[:2] = ["time", "subframe"]
     wrong = [unit for name, unit in zip(names, units, strict=False) if name and unit not in VICON_UNITS]
     if wrong:
         raise InputError(f"{path}: unit {shown(wrong[0])}: must be one of {', '.join(filter(None, VICON_UNITS))}")
-    factors = {name: VICON_UNITS[unit] for name, unit in zip(names, units, strict=False) if name}
-    made = {"time": (["frame"], lambda frame: frame / rate)}
-    return Layout(encoding, separator, tuple(names), axes + 2, factors=factors, made=made, ends=True)
+    factors = {name: VICON_UNITS[unit] for name, unit in zip(names, units, strict=False) if name} | {"time": 1.0 / rate}
+    return Layout(separator, tuple(names), axes + 2, factors=factors, ends=True)
 
 
 def _one_of(path: Path, names: Sequence[str], chosen: str | None) -> str:
@@ -211,8 +194,8 @@ def _one_of(path: Path, names: Sequence[str], chosen: str | None) -> str:
     return chosen
 
 
-def read_table(path: Path, wanted: Iterable[str], settings: Any, kind: str = "") -> TextTable:
-    """The columns of a table in a file that are asked for.
+def read_table(path: Path, wanted: Iterable[str], settings: Any, kind: str = "") -> LogTables:
+    """The table "" of a text file, with the columns that are asked for.
 
     Args:
         path: of the file.
@@ -229,26 +212,24 @@ def read_table(path: Path, wanted: Iterable[str], settings: Any, kind: str = "")
             head = [line.rstrip("\r\n") for line in itertools.islice(file, HEAD)]
             if kind:
                 made = motive_layout if kind == "optitrack" else vicon_layout
-                layout = made(path, head, encoding, settings.rigid_body)
+                layout = made(path, head, settings.rigid_body)
             else:
-                layout = find_layout(path, head, encoding, asked, settings)
+                layout = find_layout(path, head, asked, settings)
             layout = _with_numbers(path, layout, head, asked, settings.decimal)
             names = [name for name in layout.names if name]
-            needed = [*asked, *(n for own, _ in layout.made.values() for n in own)]
             for name in asked:
                 if names.count(name) > 1:
                     raise InputError(f"{path}: has {names.count(name)} columns {name}: {OWN_NAME}")
             file.seek(0)
-            columns = _read(path, file, layout, [n for n in dict.fromkeys(needed) if n in names])
+            columns = _read(path, file, layout, encoding, [name for name in asked if name in names])
     except (UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{path}: cannot be read as a table ({error})") from error
     for name, factor in layout.factors.items():
         if name in columns and factor != 1.0:
             columns[name] = columns[name] * factor
-    columns |= {name: of(*(columns[n] for n in own)) for name, (own, of) in layout.made.items()}
     notes = [f"{path}: read as Windows' cp1252, since it is not UTF-8"] * (encoding == "cp1252")
     notes += [f"{path}: read with a decimal comma"] * (layout.decimal == "," and settings.decimal is None)
-    return TextTable((*layout.made, *names), columns, layout.units, tuple(notes))
+    return LogTables([""], lambda _: names, lambda _, name: columns[name], units=layout.units, notes=tuple(notes))
 
 
 OWN_NAME = "one that is read must have its own name; names_line = [1, 2] joins the names of two lines as Upper.Lower"
@@ -272,18 +253,15 @@ def _with_numbers(path: Path, layout: Layout, head: Sequence[str], asked: Sequen
     return replace(layout, first=first, units=units, decimal="," if comma else layout.decimal)
 
 
-def _read(path: Path, file: Iterator[str], layout: Layout, names: Sequence[str]) -> dict[str, Array]:
+def _read(path: Path, file: Iterator[str], layout: Layout, encoding: str, names: Sequence[str]) -> dict[str, Array]:
     """The columns of these names, from all lines of numbers; a batch of lines is parsed after another."""
     places = [layout.names.index(name) for name in names]
     found = [array("d") for _ in names]
-    below = itertools.islice(file, layout.first, None)
-    separator = layout.separator
-    reader: Iterator[list[str]] = (
-        map(str.split, below)
-        if separator is None
-        else csv.reader(below, delimiter=separator, skipinitialspace=True)  # quoted cells may have separators in them
-    )
-    line, is_cut = layout.first + 1, _is_cut(path, layout.encoding)
+    below: Iterator[str] = itertools.islice(file, layout.first, None)
+    reader: Iterator[list[str]] = map(str.split, below)
+    if layout.separator is not None:  # quoted cells may have it in them
+        reader = csv.reader(below, delimiter=layout.separator, skipinitialspace=True)
+    line, is_cut = layout.first + 1, _is_cut(path, encoding)
     while rows := list(itertools.islice(reader, BATCH)):
         kept, numbers = _whole(path, rows, layout, line, is_cut)
         for column, place in zip(found, places, strict=True):
@@ -312,11 +290,9 @@ def _whole(
         return rows, range(len(rows))
     kept, places = list[list[str]](), list[int]()
     for i, row in enumerate(rows):
-        if not any(row):
-            if layout.ends:
-                break
-            continue
-        if row[0].startswith(COMMENT):
+        if not any(row) and layout.ends:
+            break
+        if not any(row) or row[0].startswith(COMMENT):
             continue
         while len(row) > width and not row[-1].strip():
             row = row[:-1]
