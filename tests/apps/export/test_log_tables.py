@@ -283,6 +283,20 @@ def test_a_topic_of_the_users_own_list_that_is_missing_is_named(tmp_path):
         tl.read_log(folder, SPEEDS | WRENCH)
 
 
+def test_a_topic_that_pauses_after_its_first_message_keeps_it(tmp_path):
+    stamps = np.concatenate([DUE[:1], DUE[1:] + 2.0])
+    log = tl.read_log(bag(tmp_path / "pause", {"/speeds": stamps}), SPEEDS)
+    assert log["rotor_speed_commands"].values[0, 0] == 100.0
+    assert log.notes == ("rotor_speed_commands: no samples for 2 s from 0 s",)
+
+
+@pytest.mark.parametrize("count", [1, 2, 4])
+def test_our_own_topics_are_read_of_as_many_joints_as_there_are(count, tmp_path):
+    joints = {f"/tandemlift/joint_{i + 1}/measured": DUE for i in range(count)}
+    log = tl.read_log(bag(tmp_path / "ours", joints))
+    assert log["measured_joint_force"].values == pytest.approx(np.outer(np.arange(500), [1.0, 0.0, 0.0] * count))
+
+
 @pytest.mark.parametrize("zeros", [slice(None), slice(0, 400), slice(7, 9)])
 def test_headers_without_a_stamp_are_taken_by_arrival_or_left_out(zeros, tmp_path):
     stamps = DUE.copy()

@@ -41,10 +41,10 @@ class Stamped(NamedTuple):
     notes: tuple[str, ...]
 
 
-def has_stamp(time: Array) -> Rows:
+def has_stamp(time: Array, *, zero_is_one: bool = False) -> Rows:
     """Which rows have a stamp: a finite one, and 0 only where the next one follows, as at the beginning of a clock."""
     there = np.isfinite(time)
-    if not np.any(time == 0.0):
+    if zero_is_one or not np.any(time == 0.0):
         return there
     others = time[there & (time != 0.0)]
     ahead = np.diff(others)
@@ -56,15 +56,16 @@ def has_stamp(time: Array) -> Rows:
     return np.asarray(there & ((time != 0.0) | begins))
 
 
-def stamped(place: str, time: Array, valued: Rows | None = None) -> Stamped:
+def stamped(place: str, time: Array, valued: Rows | None = None, *, zero_is_one: bool = False) -> Stamped:
     """The rows of a column of stamps [s] that have one, with counters continued.
 
     Args:
         place: the stream and file, for messages.
         time: the column (n,), NaN where it is empty.
         valued: the rows that have readings; None for all.
+        zero_is_one: whether 0 is a stamp like others, because those that are missing are NaN.
     """
-    rows = has_stamp(time)
+    rows = has_stamp(time, zero_is_one=zero_is_one)
     without = np.flatnonzero(~rows if valued is None else valued & ~rows)
     notes = list[str]()
     if len(without) and rows.any():

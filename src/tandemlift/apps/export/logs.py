@@ -322,11 +322,12 @@ def _stamps(
     columns = [*(there or way.stamps[:1]), *([tables.arrival] if tables.arrival else [])]
     units = {name: "s" if name == tables.arrival else way.time_unit for name in columns}
     times = {name: _column(place, tables, topic, name) * factor_of(unit) for name, unit in units.items()}
-    taken = columns[0]
+    taken, is_bag = columns[0], bool(tables.arrival)  # whose stamps count from the first one
     if valued.any():
-        taken = next((name for name in columns if np.mean(~has_stamp(times[name])[valued]) <= MISSING), taken)
+        lost = {name: np.mean(~has_stamp(time, zero_is_one=is_bag)[valued]) for name, time in times.items()}
+        taken = next((name for name in columns if lost[name] <= MISSING), taken)
     time = times[taken]
-    rows, kept, mended = stamped(f"{place}: column {taken}", time, valued)
+    rows, kept, mended = stamped(f"{place}: column {taken}", time, valued, zero_is_one=is_bag)
     if not len(kept):
         raise InputError(f"{place}: all its stamps in {', '.join(columns)} are empty or 0")
     if not rows.all() or mended:
