@@ -16,6 +16,7 @@ import numpy as np
 
 from tandemlift.analysis.logs.clocks import NOTHING_TOLD, SPAN, TOLD, SourceClock, fitted_clock, means_of, turn_windows
 from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, Log, Stream, rotated
+from tandemlift.analysis.logs.stamps import check_rate
 from tandemlift.core.errors import FlightWarning, InputError
 from tandemlift.core.types import GRAVITY
 from tandemlift.flight.channels import stamp_of
@@ -75,6 +76,8 @@ def check_log(log: Log) -> None:
     Raises:
         InputError: the message names the stream, its value, and what is expected.
     """
+    for name, (time, _) in log.items():
+        check_rate(log.source, name, time)
     for name in (*IMU, *JOINTS, *MOTION):
         if name in log:
             _check_alive(log, name)
