@@ -317,3 +317,10 @@ def test_an_mdf_file_has_groups_with_their_own_times(tmp_path):
 def test_an_unknown_format_is_named(tmp_path):
     with pytest.raises(tl.InputError, match="unknown format 'qualisys'; there are optitrack, vicon"):
         tl.read_log(tmp_path / "log.csv", format="qualisys")
+
+
+@pytest.mark.parametrize("format", ["blackbox", "crazyflie", "rosbag-csv"])
+def test_a_table_of_another_program_is_refused_with_its_columns(format, tmp_path):
+    (tmp_path / "log.csv").write_text("t,gx\n" + "".join(f"{0.01 * k},1\n" for k in range(50)))
+    with pytest.raises(tl.InputError, match="has no samples for measured_rates in .*; it has the columns t, gx"):
+        tl.read_log(tmp_path / "log.csv", format=format)

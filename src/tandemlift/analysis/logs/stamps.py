@@ -44,7 +44,7 @@ class Stamped(NamedTuple):
 def has_stamp(time: Array, *, zero_is_one: bool = False) -> Rows:
     """Which rows have a stamp: a finite one, and 0 only where the next one follows, as at the beginning of a clock."""
     there = np.isfinite(time)
-    if zero_is_one or not np.any(time == 0.0):
+    if zero_is_one or len(time) == 1 or not np.any(time == 0.0):
         return there
     others = time[there & (time != 0.0)]
     ahead = np.diff(others)

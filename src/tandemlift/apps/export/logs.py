@@ -181,7 +181,9 @@ def _log(path: Path, tables: LogTables, ways: Mapping[str, list[Way]], asked: Co
             dict.fromkeys(topic for name in missing for way in ways[name] for topic in way.topics if topic)
         )
         wanted = wanted or ", ".join(ways[missing[0]][0].columns)
-        there = ", ".join(tables.there or tables.topics) or "no number there"
+        there = (
+            ", ".join(tables.there or tables.topics or ["no topic"]) or f"the columns {', '.join(tables.columns(''))}"
+        )
         raise InputError(f"{path}: has no samples for {missing[0]} in {wanted}; it has {there}")
     streams = {name: one.stream for name, one in found.items()}
     for name, one in sorted(found.items(), key=lambda item: item[0] not in IMU):  # whose rate tells the most
