@@ -322,5 +322,5 @@ def test_an_unknown_format_is_named(tmp_path):
 @pytest.mark.parametrize("format", ["blackbox", "crazyflie", "rosbag-csv"])
 def test_a_table_of_another_program_is_refused_with_its_columns(format, tmp_path):
     (tmp_path / "log.csv").write_text("t,gx\n" + "".join(f"{0.01 * k},1\n" for k in range(50)))
-    with pytest.raises(tl.InputError, match="has no samples for measured_rates in .*; it has the columns t, gx"):
+    with pytest.raises(tl.InputError, match=r"has no samples for measured_rates in .*; it has the columns t, gx"):
         tl.read_log(tmp_path / "log.csv", format=format)
