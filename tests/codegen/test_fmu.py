@@ -15,6 +15,9 @@ from tandemlift.codegen.fmu_sources import flight_part, pilot_part
 from tandemlift.codegen.vehicle_step import is_of_vehicle
 from tandemlift.flight.data_frames import column_names
 from tandemlift.simulation.caller_values import portable_mission
+from tandemlift.simulation.parameter_changes import scheduled_change
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation.traced_assembly import trace_assembly
 from tools import need
 
 BOTH = pytest.mark.parametrize("fmi", [2, 3])
@@ -225,7 +228,7 @@ def test_a_pilot_takes_no_step_with_a_number_that_is_not_finite(fmi, fmu):
     for wrong in (np.nan, np.inf):
         pilot.set("attitude", [1.0, 0.0, wrong, 0.0])
         assert pilot.step(0.0, 0.001) == DISCARD
-        assert "not finite" in pilot.said[-1]
+        assert re.search(r"attitude\S*y = -?(nan|inf) is not finite", pilot.said[-1])
     pilot.set("attitude", [1.0, 0.0, 0.0, 0.0])
     for k in range(100):
         assert pilot.step(k * 0.001, 0.001) == OK
@@ -233,6 +236,81 @@ def test_a_pilot_takes_no_step_with_a_number_that_is_not_finite(fmi, fmu):
     pilot = Instance(fmu("paper", "pilot", fmi))
     pilot.set("velocity", [np.nan, 0.0, 0.0])
     assert pilot.begin() == ERROR
+
+
+@BOTH
+def test_a_flight_takes_no_step_with_a_push_that_is_not_finite_and_names_it(fmi, fmu):
+    flown, other = Instance(fmu("hover", "flight", fmi)), Instance(fmu("hover", "flight", fmi))
+    assert flown.begin() == other.begin() == OK
+    for wrong in (np.nan, -np.inf):
+        flown.set("push", [0.0, wrong, 0.0])
+        assert flown.step(0.0, 0.001) == DISCARD
+        assert re.search(r"push\S*y = -?(nan|inf) is not finite", flown.said[-1])
+    flown.set("push", [0.0, 0.0, 0.0])
+    for k in range(20):
+        assert flown.step(k * 0.001, 0.001) == other.step(k * 0.001, 0.001) == OK
+    assert same(flown.number("velocity", 3), other.number("velocity", 3))
+    begun = Instance(fmu("hover", "flight", fmi))
+    begun.set("push", [np.nan, 0.0, 0.0])
+    assert begun.begin() == ERROR
+
+
+@BOTH
+def test_a_tunable_parameter_that_is_set_between_steps_has_the_bits_of_a_change(fmi, fmu):
+    described, key, value = fmu("hover", "flight", fmi), "controller.gains.xi.0", 3.0
+    change = {"time": 0.7, "key": key, "value": value, "duration": 0.0}
+    expected = tl.fly(unfused(tl.load_mission("hover", {"changes": [change], "mission.duration": 2.0})))
+    instance, (outputs, count) = Instance(described), Instance(described).references(described.of("output"))
+    every, rows = round(float(expected.time[1]) / 0.001), []
+    assert instance.begin() == OK
+    name = key if fmi == 2 else "controller.gains.xi"
+    gains = list(tl.load_mission("hover").controller.gains.xi)
+    for k in range(2000):
+        if k % every == 0:
+            rows.append(instance.get(outputs, count))
+        if k == 700:
+            new = [value, *gains[1:]]
+            assert instance.set(name, value if fmi == 2 else new) == OK
+        assert instance.step(k * 0.001, 0.001) == OK, instance.said
+    assert same(np.array(rows), columns_of(expected, fmi, described.of("output"))[: len(rows)])
+
+
+@BOTH
+def test_a_fixed_parameter_is_not_set_between_steps_and_a_tunable_one_within_its_bounds(fmi, fmu):
+    instance = Instance(fmu("hover", "flight", fmi))
+    assert instance.begin() == OK
+    assert instance.set("vehicle.payload.mass", 0.7) == ERROR
+    assert "vehicle.payload.mass: is a parameter, and set before" in instance.said[-1]
+    assert instance.step(0.0, 0.001) == OK
+    assert instance.set(*(("controller.gains.xi.0", -1.0) if fmi == 2 else ("controller.gains.xi", [-1.0] * 6))) == OK
+    assert instance.step(0.001, 0.001) == ERROR
+    assert "controller.gains.xi.0 = -1: must be" in instance.said[-1]
+
+
+def test_tunable_are_the_parameters_that_changes_of_a_mission_can_change():
+    mission = portable_mission(tl.load_mission("hover"))
+    plan = FlightPlan(mission, interactive=True)
+    variables = [v for v in flight_part(mission, "flight").variables if v.causality == "parameter"]
+    tunable = [label for v in variables if v.is_tunable for label in v.labels]
+    fixed = [label for v in variables if not v.is_tunable for label in v.labels]
+    assert len(tunable) > 50
+    assert len(fixed) > 50
+    traced = trace_assembly(mission)
+    values = dict(zip(traced.keys, traced.values, strict=True))
+
+    def can(key):
+        for factor in (1.01, 0.99):
+            try:
+                scheduled_change(plan, key, values[key] * factor or 0.01, 100, 0.0)
+            except tl.InputError:
+                continue
+            return True
+        return False
+
+    other_code = {key for guard in traced.guards for key in traced.keys_of(guard)}
+    rng = np.random.default_rng(5)
+    assert [key for key in rng.choice(tunable, 20, replace=False) if not can(key)] == []
+    assert [key for key in rng.choice(fixed, 20, replace=False) if can(key) and key not in other_code] == []
 
 
 @BOTH

@@ -128,7 +128,10 @@ def test_what_falls_tilted_on_the_floor_is_thrown_back_as_in_mujoco(shape, euler
 
 
 SPOILED = {
-    "opened": (lambda m: m.update_faces(np.arange(len(m.faces)) > 2), r"must be closed"),
+    "opened": (
+        lambda m: m.update_faces(np.arange(len(m.faces)) > 2),
+        r"must be closed.* of 288 edges have not two triangles, from \[.*\] to \[.*\] m: .* mass, inertia and corners",
+    ),
     "inside out": (lambda m: m.invert(), r"is inside out, with a volume of -0\.72 m³"),
     "in millimetres": (lambda m: m.apply_scale(1000.0), r"looks like millimetres; scale it with mesh_scale = 0\.001"),
 }
@@ -144,6 +147,47 @@ def test_a_spoiled_mesh_is_refused_with_what_is_wrong(brick, way):
     mesh.export(brick)
     with pytest.raises(tl.InputError, match=rf"vehicle\.payload\.mesh = .*: .*{says}"):
         tl.load_mission("iris", of_mesh(brick))
+
+
+def made_of(path, *parts):
+    """A mesh of several, as a file; a hole is a part that is inside out."""
+    trimesh = pytest.importorskip("trimesh")
+    trimesh.util.concatenate(parts).export(path)
+    return tl.load_mission("iris", of_mesh(path) | {"vehicle.payload.density": 30.0}).vehicle.payload.mass
+
+
+def test_a_mesh_that_counts_a_place_twice_is_refused_and_one_with_a_hole_or_in_parts_is_not(tmp_path):
+    """Volumes are those of the boxes; what overlaps, or an inner surface that is turned outside, weighs too much."""
+    box = pytest.importorskip("trimesh").creation.box
+    outer, inner, wall = box((0.1, 1.6, 0.05)), box((0.08, 1.58, 0.03)), box((0.0998, 1.5998, 0.0498))
+    across, beside, apart = box((0.5, 0.1, 0.05)), box((0.5, 0.1, 0.05)), box((0.1, 0.1, 0.1))
+    beside.apply_translation((0.0, 0.0, 0.05))
+    apart.apply_translation((0.0, 1.2, 0.0))
+    path = tmp_path / "made.stl"
+    for parts in ((outer, inner), (outer, across)):
+        with pytest.raises(tl.InputError, match=r"m³ count the place \[.*\] m 2 times: bodies overlap, or an inner"):
+            made_of(path, *parts)
+    for hole in (inner, wall):
+        hole.invert()
+        assert made_of(path, outer, hole) == pytest.approx(30.0 * (outer.volume - abs(hole.volume)), rel=1e-4)
+    assert made_of(path, outer, beside) == pytest.approx(30.0 * (outer.volume + beside.volume), rel=1e-6)
+    assert made_of(path, outer, apart) == pytest.approx(30.0 * (outer.volume + apart.volume), rel=1e-6)
+    apart.invert()
+    with pytest.raises(tl.InputError, match="0 times: a body is inside out"):
+        made_of(path, outer, apart)
+
+
+@pytest.mark.parametrize(("length", "radius"), [(0.4, 0.1), (0.2, 0.3), (1.0, 0.06)])
+def test_a_thick_short_beam_is_a_cylinder(length, radius):
+    """By trimesh, whose cylinder has 1,000 sides; only slender beams are the thin rod of the paper."""
+    trimesh = pytest.importorskip("trimesh")
+    solid = trimesh.creation.cylinder(radius=radius, height=length, sections=1000)
+    changes = {"vehicle.payload.length": length, "vehicle.payload.radius": radius}
+    payload = tl.load_mission("hover", changes).vehicle.payload
+    across, _, along = payload.mass / solid.volume * np.diag(solid.moment_inertia)
+    assert payload.moments == pytest.approx((across, along, across), rel=1e-4)
+    thin = tl.load_mission("hover").vehicle.payload
+    assert thin.moments[0] == thin.mass * thin.length**2 / 12.0
 
 
 @pytest.mark.parametrize(

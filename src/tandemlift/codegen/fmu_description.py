@@ -123,7 +123,7 @@ def _common(variable: FmuVariable) -> dict[str, str]:
     """The attributes that a variable has in both versions."""
     found = {"causality": variable.causality}
     if variable.causality == "parameter":
-        found |= {"variability": "fixed"}
+        found |= {"variability": "tunable" if variable.is_tunable else "fixed"}
     elif variable.is_truth:
         found |= {"variability": "discrete"}
     return found

@@ -71,7 +71,8 @@ def pilot_part(mission: Mission) -> FmuPart:
     prepare = PrepareFile(file.anew(), traced, "pilot")
     effective = _effective(traced, [*symbols(traced.graph, traced.assembled), *_conditions(traced)])
     count, start = len(traced.keys), [float(x) for x in flat(INPUT)]
-    found = [*fmu_variables.parameters(traced, facts, effective), *fmu_variables.pilot_inputs(count, start)]
+    tunable = _effective(traced, symbols(traced.graph, traced.assembled.parameters))
+    found = [*fmu_variables.parameters(traced, facts, effective, tunable), *fmu_variables.pilot_inputs(count, start)]
     found.append(fmu_variables.thrust_output(count + len(start), len(pilot.thrusts)))
     code = {"pilot.c": pilot.source(), "pilot.h": pilot.header()}
     code |= {"pilot_prepare.c": prepare.source(), "pilot_prepare.h": prepare.header(facts)}
@@ -86,6 +87,7 @@ def flight_part(mission: Mission, part: str) -> FmuPart:
     file, facts = source_file(mission), facts_of(mission, traced.keys)
     flight, prepare = FlightFile(file, plan, **step), PrepareFile(file.anew(), traced, "flight")
     found, spans = prepared_numbers(traced)
+    tunable = _tunable(traced, found)
     if is_whole:
         found += _conditions(traced)
     else:
@@ -94,7 +96,7 @@ def flight_part(mission: Mission, part: str) -> FmuPart:
     count, external = len(traced.keys), plan.given.external
     names = [name for name in channel_columns(plan.sample) if is_whole or is_of_vehicle(name)]
     shown, places = fmu_variables.outputs(flight.templates.sample, count + leaves(external), names)
-    variables = [*fmu_variables.parameters(traced, facts, _effective(traced, found))]
+    variables = [*fmu_variables.parameters(traced, facts, _effective(traced, found), tunable)]
     variables += [*fmu_variables.caller_inputs(external, count, has_pilot=is_whole), *shown]
     code = {"flight.c": flight.source(), "flight.h": flight.header()}
     code["flight_prepare.c"] = prepare.source(flight.traced_tables)
@@ -121,6 +123,16 @@ def _effective(traced: TracedAssembly, results: list[Any]) -> set[int]:
     """The inputs of an assembly that its results depend on."""
     graph = traced.graph
     return {graph.args[n][1] for n in graph.needed([s.node for s in results]) if graph.ops[n] == "in"}
+
+
+def _tunable(traced: TracedAssembly, found: list[Any]) -> set[int]:
+    """The inputs of an assembly on which parameters of a flight depend, and neither body nor delays nor tables."""
+    changing, kept, at = list[Any](), list[Any](), 0
+    for name, part in traced.assembled.model._asdict().items():
+        own, at = found[at : at + leaves(part)], at + leaves(part)
+        if name != "flight_state":  # which has begun
+            (kept if name in ("plant", "delays") else changing).extend(own)
+    return _effective(traced, changing) - _effective(traced, [*kept, *found[at:]])
 
 
 def _part(
@@ -151,6 +163,7 @@ def _part(
         "SIZES": _lines(sizes),
         "BOUNDS": "\n".join(_bounds(traced, variables)),
         "GUARDS": "\n".join(guards),
+        "NAMES": "\n".join(f'    "{name}",' for v in variables if v.causality == "input" for name in v.labels),
     }
     api = ["fmi2.c", "fmi3.c", "fmu.c", "fmu.h", "fmu_values.c"]  # a library speaks both versions
     texts = {f"{file.prefix}{name}": text for name, text in code.items()}
@@ -173,14 +186,15 @@ def _lines(sizes: list[int]) -> str:
 
 
 def _bounds(traced: TracedAssembly, variables: list[fmu_variables.FmuVariable]) -> list[str]:
-    """A row of key and bounds for each number of the mission; NaN is in no bounds."""
-    bounds = {v.at + i: v.bounds for v in variables for i in range(len(v.labels)) if v.causality == "parameter"}
+    """A row of key, bounds and whether it is tunable for each number of the mission; NaN is in no bounds."""
+    of = {v.at + i: v for v in variables for i in range(len(v.labels)) if v.causality == "parameter"}
     rows = list[str]()
     for i, key in enumerate(traced.keys):
-        own = bounds.get(i, {})
+        own = of[i].bounds if i in of else {}
+        can_change = str(i in of and of[i].is_tunable).lower()
         least = own.get("minimum", own.get("exclusiveMinimum", -float("inf")))
         most = own.get("maximum", own.get("exclusiveMaximum", float("inf")))
         ends = f"{number(float(least), 'double')}, {number(float(most), 'double')}"
         is_open = [str(f"exclusive{end}" in own).lower() for end in ("Minimum", "Maximum")]
-        rows.append(f'    {{"{key}", {ends}, {", ".join(is_open)}}},')
+        rows.append(f'    {{"{key}", {ends}, {", ".join([*is_open, can_change])}}},')
     return rows

@@ -35,6 +35,7 @@ class FmuVariable(NamedTuple):
         start: its numbers before the first step; none for outputs.
         bounds: of its numbers, by their names in JSON Schema.
         is_truth: whether it is true or false.
+        is_tunable: whether a parameter may be set between steps, as `[[changes]]` do.
     """
 
     name: str
@@ -46,6 +47,7 @@ class FmuVariable(NamedTuple):
     start: tuple[float, ...] = ()
     bounds: Mapping[str, float] = MappingProxyType({})
     is_truth: bool = False
+    is_tunable: bool = False
 
     @property
     def description(self) -> str:
@@ -55,7 +57,7 @@ class FmuVariable(NamedTuple):
 
 
 def parameters(
-    traced: TracedAssembly, facts: Mapping[str, dict[str, Any]], effective: set[int]
+    traced: TracedAssembly, facts: Mapping[str, dict[str, Any]], effective: set[int], tunable: set[int]
 ) -> Iterator[FmuVariable]:
     """A parameter for each key whose numbers have an effect; a list of numbers is an array.
 
@@ -63,6 +65,7 @@ def parameters(
         traced: the assembly, whose inputs are the numbers.
         facts: of `number_facts`, by key.
         effective: which of these have an effect.
+        tunable: which of these may change between steps.
     """
     places = [i for i in range(len(traced.keys)) if i in effective]
     for name, group in itertools.groupby(places, lambda i: _list_of(traced.keys[i])):
@@ -76,8 +79,9 @@ def parameters(
             channel = Channel(bounds.pop("unit"), "", bounds.pop("meaning"), len(members))
             start = tuple(traced.values[i] for i in members)
             at = members[0]
+            own_name, is_tunable = name if is_whole else labels[0], tunable.issuperset(members)
             yield FmuVariable(
-                name if is_whole else labels[0], "parameter", channel, at, labels, is_whole, start, bounds
+                own_name, "parameter", channel, at, labels, is_whole, start, bounds, is_tunable=is_tunable
             )
 
 

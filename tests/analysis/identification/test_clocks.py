@@ -6,7 +6,8 @@ from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
 from tandemlift.analysis.identification.clocks import clock_of, synchronised
-from tandemlift.analysis.identification.log import IMU, JOINTS, MOTION, Log, Stream, without_repeats
+from tandemlift.analysis.identification.log import IMU, JOINTS, MOTION, Log, Stream
+from tandemlift.analysis.logs.stamps import distinct
 
 DURATION = 30.0  # s
 STEP = 0.001  # s
@@ -75,7 +76,7 @@ def test_gaps_and_repeated_stamps_are_bridged(motions):
         time, values = streams[name]
         kept = (time < begin) | (time > end)
         repeated = np.repeat(np.arange(kept.sum()), 1 + (np.arange(kept.sum()) % 50 == 0))
-        streams[name] = without_repeats(Stream(time[kept][repeated], values[kept][repeated]))
+        streams[name], _ = distinct(name, Stream(time[kept][repeated], values[kept][repeated]))
     clock = clock_of(Log(streams), "motion")
     assert clock.offset == pytest.approx(0.02, abs=4.0 * clock.offset_sigma)
     assert clock.offset_sigma < 5e-4

@@ -54,3 +54,10 @@ def test_a_sound_log_passes_also_where_it_hardly_moves(log):
 def test_a_contradiction_is_refused_with_its_likely_cause(log, changes, message):
     with pytest.raises(tl.InputError, match=message):
         check_log(with_values(log.between(12.5, 24.0), **changes))
+
+
+def test_stamps_in_milliseconds_are_refused_before_anything_is_computed(log):
+    begin = log.begin
+    slow = log.mapped(lambda _, stream: Stream(1e3 * (stream.time - begin), stream.values))
+    with pytest.raises(tl.InputError, match=r'samples at 0\.2 Hz, .* expected; time_unit = "ms"'):
+        tl.shadow(slow, "iris")

@@ -85,7 +85,7 @@ def test_a_table_on_two_clocks_is_shadowed_and_its_files_are_written(table, tmp_
     [
         (["flight.csv", "--mission", "iris"], "needs a map"),
         (["flight.csv", "--mission", "iris", "--columns", "none.toml"], "none.toml"),
-        (["flight.log", "--mission", "iris"], "must be a flight"),
+        (["flight.doc", "--mission", "iris"], "must be a flight"),
         (
             ["flight.csv", "--columns", "map.toml", "--mission", "paper", "--set", "pilot.push=truth"],
             "has no push_force",

@@ -338,7 +338,7 @@ def test_a_table_is_read_by_its_map_each_stream_at_its_own_rate(table):
         ({"measured_rates": {"unit": "deg/s"}}, r"measured_rates\.columns is missing"),
         ({"measured_rates": {"columns": ["p"], "units": "deg"}}, r"measured_rates\.units = .*Did you mean \S+unit\?"),
         ({"measured_rates": {"columns": ["p"], "unit": "deg/min"}}, 'measured_rates.unit = "deg/min": must be one of'),
-        ({"measured_position": {"columns": ["p"], "unit": "deg/s"}}, "unit = .*: must be one of m, mm, 1"),
+        ({"measured_position": {"columns": ["p"], "unit": "deg/s"}}, "unit = .*: must be one of m, mm, cm, in, ft, 1"),
         ({"measured_rates": {"columns": ["p"], "unit": ["deg/s"]}}, r"measured_rates\.unit = .*: must be text"),
         (
             {"measured_rates": {"columns": ["p"], "scale": "2"}},
@@ -359,14 +359,14 @@ def test_a_map_that_does_not_fit_is_refused_with_what_is_there(table, change, me
 def test_what_is_no_table_or_no_log_is_refused(table, tmp_path):
     with pytest.raises(tl.InputError, match="needs a map"):
         tl.read_log(table)
-    table.write_text("a,b\n1,2\n3,four\n")
+    table.write_text("ms,p,q,r\n1,2,3,4\n3,four,3,4\n")
     with pytest.raises(tl.InputError, match="line 3: could not convert string to float: 'four'"):
         tl.read_log(table, COLUMNS)
-    table.write_text("a,b\n1,2\n3\n")
-    with pytest.raises(tl.InputError, match="line 3 has 1 cells, the first line 2"):
+    table.write_text("ms,p\n1,2\n3\n")
+    with pytest.raises(tl.InputError, match="line 3 has 1 cells, the line of names 2"):
         tl.read_log(table, COLUMNS)
     with pytest.raises(tl.InputError, match=r"must be a flight \(.npz\), a bag"):
-        tl.read_log(tmp_path / "flight.txt")
+        tl.read_log(tmp_path / "flight.doc")
     (tmp_path / "map.toml").write_text("no toml")
     with pytest.raises(tl.InputError, match=r"map\.toml: "):
         tl.read_log(table, tmp_path / "map.toml")

@@ -259,7 +259,7 @@ def test_curves_are_read_by_the_names_of_channels_with_gaps(tmp_path):
         ("time,place\n0,1\n1,2\n", "none of its columns is drawn; those that are: push_force_x, "),
         ("time,position_x\n0,a\n", "line 2: could not convert"),
         ("time,position_x,position[m].x\n0,1,1\n1,2,2\n", "position_x is a column under two names"),
-        ("time,thrust\n0,\xff\n", "is no text in UTF-8"),
+        ("time,thrust\n0,\xff\n", "could not convert string to float: 'ÿ'"),
     ],
 )
 def test_curves_that_cannot_be_drawn_are_refused_before_anything_is_flown(text, said, tmp_path, monkeypatch):

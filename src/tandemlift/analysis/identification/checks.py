@@ -24,6 +24,7 @@ from tandemlift.analysis.identification.clocks import (
     turn_windows,
 )
 from tandemlift.analysis.identification.log import IMU, JOINTS, MOTION, Log, Stream, rotated
+from tandemlift.analysis.logs.stamps import check_rate
 from tandemlift.core.errors import FlightWarning, InputError
 from tandemlift.core.types import GRAVITY
 from tandemlift.flight.channels import stamp_of
@@ -83,6 +84,8 @@ def check_log(log: Log) -> None:
     Raises:
         InputError: the message names the stream, its value, and what is expected.
     """
+    for name, (time, _) in log.items():
+        check_rate(log.source, name, time)
     for name in (*IMU, *JOINTS, *MOTION):
         if name in log:
             _check_alive(log, name)
@@ -160,7 +163,7 @@ def _check_rates(log: Log) -> None:
         raise _wrong(log, name, f"gyroscope and attitude contradict each other ({numbers}); it seems to be {text}")
 
 
-def acceleration(log: Log) -> Stream:
+def acceleration(log: Mapping[str, Stream]) -> Stream:
     """The acceleration [m/s²] of the accelerometer, world axes, with the attitude of the log."""
     time, force = log[FORCE]
     return Stream(time, rotated(log[ATTITUDE].at(time), force) - [0.0, 0.0, GRAVITY])

@@ -76,12 +76,6 @@ def rotated(q: Array, v: Array) -> Array:
     return np.asarray(v + 2.0 * np.cross(r, np.cross(r, v) + w * v) / np.sum(q * q, axis=1)[:, None])
 
 
-def without_repeats(stream: Stream) -> Stream:
-    """A stream without the samples whose stamp is that of the sample before: of a stamp that comes twice, the first."""
-    new = np.diff(stream.time, prepend=-np.inf) != 0.0
-    return Stream(stream.time[new], stream.values[new])
-
-
 @dataclass(frozen=True, eq=False)
 class Log(Mapping[str, Stream]):
     """The streams of a log by name, as arrays of float64.
@@ -91,6 +85,7 @@ class Log(Mapping[str, Stream]):
         source: file or flight that it came from, for messages.
         notes: what was found and changed since it was read, a line each.
         stamp_offset: how far [s] stamps of readings may be off from those of commands; None if nobody said it.
+        breaks: the times [s] at which the estimate of the motion was reset: no window goes over one.
 
     Raises:
         InputError: a stream is unknown or empty, has another width, a number that is not finite, or a stamp that is not
@@ -101,6 +96,7 @@ class Log(Mapping[str, Stream]):
     source: str = "log"
     notes: tuple[str, ...] = ()
     stamp_offset: float | None = None
+    breaks: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         off = 0.0 if self.stamp_offset is None else self.stamp_offset
@@ -115,7 +111,7 @@ class Log(Mapping[str, Stream]):
 
     def _checked(self, name: str, time: Any, values: Any) -> Stream:
         place, channel = f"{self.source}: stream {name}", stream_channel(name)
-        time, values = np.array(time, dtype=float), np.array(values, dtype=float)
+        time, values = np.asarray(time, dtype=float), np.asarray(values, dtype=float)  # a log may be large: no copy
         values = values[:, None] if values.ndim == 1 else values
         if time.ndim != 1 or values.ndim != 2 or len(time) != len(values) or not len(time):
             raise InputError(f"{place}: times {time.shape}, values {values.shape}: must be (n,) and (n, width), n ≥ 1")
@@ -209,7 +205,8 @@ class Log(Mapping[str, Stream]):
             time = stream.time
             return Stream(time + offset + drift * (time - about), stream.values) if name in names else stream
 
-        return self.mapped(moved)
+        own = self.breaks if MOTION[0] not in names else [t + offset + drift * (t - about) for t in self.breaks]
+        return replace(self.mapped(moved), breaks=tuple(own))
 
 
 def unknown_offset(log: Log, interval: float) -> tuple[float, tuple[str, ...]]:

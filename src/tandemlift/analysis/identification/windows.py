@@ -154,7 +154,7 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
     samples = {name: _samples(cut, log[name]) for name in (*IMU, *MOTION, *JOINTS) if name in log}
     cut = replace(cut, samples=samples)
     flies, rested = _in_flight(cut, log, mission.vehicle)
-    usable = flies & _have_starts(cut) & _commanded(cut)
+    usable = flies & _have_starts(cut) & _commanded(cut) & _unbroken(cut, log.breaks)
     if usable.sum() < FEWEST:
         raise InputError(
             f"{log.source}: flies clear of the floor, with motion and rates measured and no gap in the commands, in "
@@ -265,6 +265,12 @@ def _commanded(cut: FlightWindows) -> Truths:
     gap = np.flatnonzero(np.diff(time) > GAP * np.median(np.diff(time)))
     next_gap = np.searchsorted(time[gap + 1], begin - (SETTLING + LONGEST_DELAY), side="right")
     return np.asarray(np.append(time[gap], np.inf)[next_gap] >= begin + cut.length * cut.step)
+
+
+def _unbroken(cut: FlightWindows, breaks: tuple[float, ...]) -> Truths:
+    """Whether the estimate of the motion was not reset in each window."""
+    begin, times = cut.times()[:, None], np.array(breaks)
+    return ~np.any((times > begin - cut.step) & (times <= begin + cut.length * cut.step), axis=1)
 
 
 def _in_flight(cut: FlightWindows, log: Log, vehicle: VehicleTable) -> tuple[Truths, float | None]:

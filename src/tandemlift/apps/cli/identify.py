@@ -17,7 +17,12 @@ from tandemlift.apps.export.results import results_folder
 from tandemlift.core.errors import InputError
 
 columns_option = click.option(
-    "--columns", metavar="FILE", help="Map of streams to columns or topics, a .toml file; a .csv needs one."
+    "--columns", metavar="FILE", help="Map of streams to columns or topics, a .toml file; a .csv needs it, or --format."
+)
+format_option = click.option(
+    "--format",
+    metavar="NAME",
+    help="Program that wrote it: optitrack, vicon, blackbox, crazyflie, px4, ardupilot or rosbag-csv.",
 )
 align_option = click.option(
     "--align",
@@ -30,6 +35,7 @@ align_option = click.option(
 @click.argument("log", shell_complete=FLIGHTS)
 @click.option("--mission", required=True, shell_complete=MISSIONS, help="Mission of the vehicle: a name, or a file.")
 @columns_option
+@format_option
 @align_option
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME-shadow]")
 @flying.set_option
@@ -70,6 +76,7 @@ def shadow(
 @click.argument("logs", nargs=-1, required=True, shell_complete=FLIGHTS)
 @click.option("--mission", required=True, shell_complete=MISSIONS, help="Mission of about such a vehicle.")
 @columns_option
+@format_option
 @align_option
 @flying.set_option
 @click.option("--weighed", multiple=True, metavar="KEY=KG", help="A mass from a scale. Can be repeated.")

@@ -7,16 +7,12 @@ and pyarrow all read as a number.
 
 from __future__ import annotations
 
-import csv
 import itertools
-import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
 
-from tandemlift.core.errors import InputError
-from tandemlift.core.types import Array
 from tandemlift.flight.channels import Channel
 from tandemlift.flight.data_frames import dimensions
 from tandemlift.flight.record import Flight
@@ -54,27 +50,3 @@ def write_csv(flight: Flight, path: Path) -> None:
     with path.open("w", encoding="utf-8", newline="") as file:
         file.write(",".join(headings(flight)) + "\n")
         file.writelines(",".join(map(repr, row.tolist())).replace("nan", "NaN") + "\n" for row in rows)
-
-
-def read_csv(path: Path) -> tuple[list[str], Array]:
-    """The names in the first line of a table, and its columns of numbers (n, lines); an empty cell is NaN.
-
-    Raises:
-        InputError: a line has another length, or a cell is no number.
-    """
-    with path.open(encoding="utf-8-sig", newline="") as file:
-        lines = csv.reader(file)
-        names = [name.strip() for name in next(lines, [])]
-        rows = [_numbers(f"{path}: line {i}", names, cells) for i, cells in enumerate(lines, 2) if cells]
-    if not rows:
-        raise InputError(f"{path}: has no line of numbers below the line of names")
-    return names, np.array(rows).reshape(len(rows), len(names)).T
-
-
-def _numbers(place: str, names: list[str], cells: list[str]) -> list[float]:
-    if len(cells) != len(names):
-        raise InputError(f"{place} has {len(cells)} cells, the first line {len(names)}")
-    try:
-        return [float(cell) if cell.strip() else math.nan for cell in cells]
-    except ValueError as error:
-        raise InputError(f"{place}: {error}") from None

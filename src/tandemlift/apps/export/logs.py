@@ -1,8 +1,8 @@
-"""Readers of logs: our flights, bags of ROS 1 and 2, logs of PX4 (ULog), and tables (CSV).
+"""Readers of logs: our flights, and the tables of bags, ULogs and other logs by a map.
 
 A *map* says where the streams of a log are: a table for each, by its name, with the columns, their unit and their
-signs. A list of such tables is tried in its order. `data/logs/` has the maps of our bags and of ULogs; a given map
-replaces theirs stream by stream.
+signs. A list of such tables is tried in its order. `data/logs/` has the maps of known formats; a given map replaces
+theirs stream by stream.
 """
 
 from __future__ import annotations
@@ -10,189 +10,263 @@ from __future__ import annotations
 import math
 import os
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
-from functools import reduce
 from pathlib import Path
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field, ValidationError
 
 from tandemlift.analysis.identification.checks import check_stamps
 from tandemlift.analysis.identification.clocks import GAP, synchronised
-from tandemlift.analysis.identification.log import MOTION, Log, Stream, log_of, stream_channel, without_repeats
+from tandemlift.analysis.identification.log import IMU, MOTION, Log, Stream, log_of, quaternion_product
+from tandemlift.analysis.logs.maps import (
+    FORMATS,
+    OF_ALL,
+    OF_TABLE,
+    OFFSET,
+    ROTATION_VECTOR,
+    SPELT,
+    UNITS,
+    Map,
+    TableSettings,
+    Way,
+    factor_of,
+    map_in,
+    table_settings,
+    ways_of,
+)
+from tandemlift.analysis.logs.resets import Reset, with_resets
+from tandemlift.analysis.logs.stamps import (
+    check_order,
+    check_overlap,
+    check_rate,
+    distinct,
+    gaps,
+    has_stamp,
+    stamped,
+)
+from tandemlift.apps.export import log_tables
 from tandemlift.apps.export.coordinate_frames import to_world
-from tandemlift.apps.export.csv_file import read_csv
-from tandemlift.apps.export.messages import SECOND
-from tandemlift.apps.export.reading import BASE, read_bag, reading_bag, stamp_of
+from tandemlift.apps.export.log_tables import LogTables
+from tandemlift.apps.export.reading import BASE, read_bag
+from tandemlift.apps.export.text_tables import read_table
 from tandemlift.apps.export.topics import MISSION
-from tandemlift.core.errors import InputError, extra, shown, unknown
-from tandemlift.core.files import DATA, FLIGHT_FILE, toml_tables
-from tandemlift.core.keys import Table
+from tandemlift.core.errors import InputError, unknown
+from tandemlift.core.files import DATA, FLIGHT_FILE
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight, is_flight_file
-from tandemlift.missions.refusals import problems_in
 
-DEGREE, STANDARD_GRAVITY = math.pi / 180.0, 9.80665  # m/s² of the unit g, by definition
-UNITS = {"deg": ("rad", DEGREE), "deg/s": ("rad/s", DEGREE), "rpm": ("rad/s", math.pi / 30.0)}
-UNITS |= {"g": ("m/s^2", STANDARD_GRAVITY), "m/s²": ("m/s^2", 1.0), "kgf": ("N", STANDARD_GRAVITY)}
-UNITS |= {"mm": ("m", 1e-3), "mm/s": ("m/s", 1e-3), "ms": ("s", 1e-3), "us": ("s", 1e-6), "ns": ("s", 1e-9)}
-"""Units that columns may have beside those of streams: for which of these, and the factor."""
+TEXT = (".csv", ".txt", ".tsv")
+NO_TIME = 2**31 - 1  # of a `time_offset`: PX4's mark of a reading that is not there
+MISSING = 0.05  # of the rows of a column of stamps: if more have none, another column is taken
+COUNTED = {
+    "xy_reset_counter": (MOTION[0], "delta_xy"),
+    "z_reset_counter": (MOTION[0], "delta_z"),
+    "vxy_reset_counter": (MOTION[1], "delta_vxy"),
+    "vz_reset_counter": (MOTION[1], "delta_vz"),
+    "heading_reset_counter": (MOTION[2], "delta_heading"),
+    "quat_reset_counter": (MOTION[2], "delta_q_reset"),
+    "reset_counter": ("", ""),
+}
+"""Columns of PX4 that count resets of its estimate: the stream, that of the topic if it is "", and columns of sizes."""
 
-Map = Mapping[str, Any]
-TIME = "time"  # the column of a bag's topic with the stamps of its messages [s], from the first one of all
-OF_ALL, OFFSET = ("time", "time_unit"), "stamp_offset"  # keys of all streams at once, and of the log
 
+class Found(NamedTuple):
+    """A stream that was found, its way, the topic of its first columns, and what was mended."""
 
-class Way(Table):
-    """The place of a stream in a log: a table of a map.
-
-    Attributes:
-        columns: their names, in the order of the stream's.
-        topic: of a bag or a ULog; of several, such as one for each joint, the columns come one topic after another, and
-            the samples of all are interpolated at the times of the first, as far as each has some without a gap.
-        unit: of the columns: that of the stream, or one of `UNITS` for it; "1" stands for that of the stream.
-        scale: factor, or one for each column, beside that of the unit: signs for other axes.
-        time: the column of stamps; of a list, the first that is there.
-        time_unit: of it.
-        frame: "body" for a velocity in body axes, which the attitude turns into world axes.
-    """
-
-    columns: Annotated[tuple[str, ...], Field(min_length=1)]
-    topic: str | tuple[str, ...] = ""
-    unit: str = "1"
-    scale: float | tuple[float, ...] = 1.0
-    time: str | tuple[str, ...] = TIME
-    time_unit: str = "s"
-    frame: Literal["", "body"] = ""
-
-    @property
-    def topics(self) -> tuple[str, ...]:
-        """All topics."""
-        return (self.topic,) if isinstance(self.topic, str) else self.topic
+    stream: Stream
+    way: Way
+    topic: str
+    notes: tuple[str, ...]
 
 
 def read_log(
-    path: str | os.PathLike[str], columns: Map | str | os.PathLike[str] | None = None, *, align: bool = False
+    path: str | os.PathLike[str],
+    columns: Map | str | os.PathLike[str] | None = None,
+    *,
+    format: str | None = None,
+    align: bool = False,
 ) -> Log:
     """The log in a file. Its time 0 is that of its first sample; in a flight it is the flight's.
 
+    Stamps must increase in every stream. What was mended, gaps and resets of the estimate are in `notes` of the log.
+
     Args:
-        path: a flight (.npz, or the folder of a run), a bag (.bag, .mcap, or the folder of a ROS 2 bag), a ULog (.ulg)
-            or a table (.csv).
-        columns: the map: nested tables with the keys of `Way`, or the path of a TOML file with them. A .csv needs one.
+        path: a flight (.npz, or the folder of a run), a bag (.bag, .mcap, or the folder of a ROS 2 bag), a ULog (.ulg),
+            a table (.csv, .txt, .tsv), a log of ArduPilot (.bin, .log), a C3D (.c3d) or MDF file (.mf4), or the card's
+            log of a Crazyflie.
+        columns: the map: nested tables with the keys of `Way`, or the path of a TOML file with them. A table needs one
+            or a format.
+        format: the program that wrote it, one of `FORMATS`, of which we have a map.
         align: whether to find the clocks of motion capture and joints against the inertial unit's, and to correct their
             stamps; `notes` of the log has what was found.
 
     Raises:
-        InputError: the file cannot be read, a package is missing, or a column or topic of the map is not there.
+        InputError: the file cannot be read, a package is missing, a column or topic of the map is not there, or stamps
+            go back or have an unlikely rate.
     """
-    own = columns if isinstance(columns, Mapping) else _map_in(Path(columns)) if columns else {}
-    read = _read(Path(path), own)
+    if format is not None and format not in FORMATS:
+        raise unknown("format", format, FORMATS)
+    own = columns if isinstance(columns, Mapping) else map_in(Path(columns)) if columns else {}
+    read = _read(Path(path), own, format or "")
     read = replace(read, stamp_offset=own[OFFSET]) if OFFSET in own else read
-    return synchronised(read) if align else read
+    read = synchronised(read) if align else read
+    check_overlap(read)
+    return read
 
 
-def _read(path: Path, own: Map) -> Log:
+def _read(path: Path, own: Map, format: str) -> Log:
     kind = path.suffix.lower()
-    known = _map_in(DATA / "logs" / f"{'ulog' if kind == '.ulg' else 'bag'}.toml")
-    given = _ways({key: known[key] for key in OF_ALL if key in known} | dict(own))
     if is_flight_file(path) or (path / FLIGHT_FILE).is_file():
         return log_of(Flight.load(path))
-    if kind == ".csv":
-        if not given:
-            raise InputError(f"{path}: needs a map of its columns to streams; see docs/how-to/log-a-vehicle.md")
-        table = csv_table(path)
-        check_stamps(str(path), table.columns(""), {name: ways[0].time for name, ways in given.items()})
-        return _log(path, table, given, given)
-    if kind == ".ulg":
-        return _log(path, ulog_tables(path), _ways(known) | given, given)
-    if kind not in (".bag", ".mcap") and not path.is_dir():
-        raise InputError(f"{path}: must be a flight (.npz), a bag (.bag, .mcap or its folder), a ULog (.ulg) or a .csv")
-    ways = _ways(known) | given
-    tables = bag_tables(path, [topic for many in ways.values() for way in many for topic in way.topics])
-    if not given and {MISSION.name, BASE} <= {*tables.topics}:
+    format = format or {".ulg": "px4", ".bin": "ardupilot", ".log": "ardupilot"}.get(kind, "")
+    is_text = kind in TEXT
+    is_bag = kind in (".bag", ".mcap") or (path.is_dir() and format != "rosbag-csv")
+    known = map_in(DATA / "logs" / FORMATS[format]) if format else map_in(DATA / "logs" / "bag.toml") if is_bag else {}
+    common = {key: known[key] for key in (*OF_ALL, *OF_TABLE) if key in known}
+    settings = table_settings({key: value for key, value in (common | dict(own)).items() if key in OF_TABLE})
+    given, ways = ways_of(common | dict(own)), ways_of({**known, **{key: own[key] for key in OF_ALL if key in own}})
+    ways |= given
+    wanted = defaultdict[str, list[str]](list)
+    for way in (way for many in ways.values() for way in many):
+        for topic in way.topics:
+            wanted[topic] += [*way.needs, *(COUNTED if way.topic else ())]
+    if not (is_text or is_bag or format or kind in (".c3d", ".mf4")):
+        raise InputError(
+            f"{path}: must be a flight (.npz), a bag (.bag, .mcap or its folder), a ULog (.ulg), a table (.csv, .txt, "
+            ".tsv), a log of ArduPilot (.bin, .log), a C3D file (.c3d) or an MDF file (.mf4)"
+        )
+    if not ways:
+        kinds = "a .csv, .txt or .tsv, a C3D or an MDF file needs a map of its columns to streams, or a format"
+        raise InputError(f"{path}: {kinds}; see docs/how-to/log-a-vehicle.md")
+    if is_text:
+        table = read_table(path, wanted[""], settings, format if format in ("optitrack", "vicon") else "")
+        check_stamps(str(path), table.columns(""), {name: many[0].time for name, many in given.items()})
+        return _log(path, table, ways, given)
+    if format == "rosbag-csv" and path.is_dir():
+        return _log(path, _folder_tables(path, ways, settings), ways, given)
+    if format == "crazyflie":
+        return _log(path, log_tables.card_tables(path), ways, given)
+    readers = {".ulg": log_tables.ulog_tables, ".bin": log_tables.dataflash_tables, ".log": log_tables.dataflash_tables}
+    if kind in readers:
+        return _log(path, readers[kind](path, wanted), ways, given)
+    if kind in (".c3d", ".mf4"):
+        return _log(path, (log_tables.c3d_tables if kind == ".c3d" else log_tables.mdf_tables)(path), ways, given)
+    tables = log_tables.bag_tables(path, wanted)
+    if not given and {MISSION.name, BASE} <= {*tables.there}:
         return log_of(read_bag(path))
     return _log(path, tables, ways, given)
 
 
-def _map_in(path: Path) -> Map:
-    try:
-        return toml_tables(path.read_text("utf-8-sig"))
-    except (ValueError, RecursionError) as error:
-        raise InputError(f"{path}: {error}") from None
+def _folder_tables(path: Path, ways: Mapping[str, list[Way]], settings: TableSettings) -> LogTables:
+    """The tables of a folder, one in each .csv, as `rostopic echo -p` writes them of topics."""
+    every = [name for many in ways.values() for way in many for name in way.needs]
+    tables = {file.stem: read_table(file, every, settings) for file in sorted(path.glob("*.csv"))}
+    return LogTables([*tables], lambda t: tables[t].columns(""), lambda t, name: tables[t].column("", name))
 
 
-def _ways(given: Map) -> dict[str, list[Way]]:
-    """The ways to each stream of a map."""
-    common = {key: given[key] for key in OF_ALL if key in given}
-    return {
-        name: [_way(name, common, table) for table in (tables if isinstance(tables, list) else [tables])]
-        for name, tables in given.items()
-        if name not in common and name != OFFSET
-    }
-
-
-def _way(name: str, common: Map, table: Any) -> Way:
-    """A way to a stream, from its table in a map."""
-    given, own_unit = {**common, **(table if isinstance(table, Mapping) else {})}, stream_channel(name).unit
-    try:
-        way = Way.model_validate(given)
-    except ValidationError as error:
-        problems = problems_in(Way, error, {name: given}, (name,))
-        raise InputError("\n".join(problem.sentence for problem in problems)) from None
-    for key, own in (("unit", own_unit), ("time_unit", "s")):
-        allowed = (own, *(unit for unit, (other, _) in UNITS.items() if other == own), "1")
-        if getattr(way, key) not in allowed:
-            raise InputError(f"{name}.{key} = {shown(getattr(way, key))}: must be one of {', '.join(allowed)}")
-    return way
-
-
-def _factor(unit: str) -> float:
-    """The factor from a unit to that of the stream."""
-    return UNITS[unit][1] if unit in UNITS else 1.0
-
-
-def _log(path: Path, tables: LogTables, ways: Mapping[str, list[Way]], asked: Iterable[str]) -> Log:
+def _log(path: Path, tables: LogTables, ways: Mapping[str, list[Way]], asked: Collection[str]) -> Log:
     """The log of a file's tables, by the first way to each stream that has numbers; it has those that are asked for."""
-    streams, in_body = dict[str, Stream](), list[str]()
+    found = dict[str, Found]()
     for name, many in ways.items():
         for way in many:
-            stream = _stream(f"{path}: stream {name}", way, tables)
-            if stream is not None:
-                streams[name] = stream
-                in_body += [name] if way.frame else []
+            one = _stream(path, name, way, tables, is_own=name in asked and way is many[-1])
+            if one is not None:
+                found[name] = one
                 break
-    if missing := [name for name in asked if name not in streams] or [*ways] * (not streams):
-        wanted = ", ".join(dict.fromkeys(topic for name in missing for way in ways[name] for topic in way.topics))
-        wanted, there = wanted or ", ".join(ways[missing[0]][0].columns), ", ".join(tables.topics) or "no number there"
+    if missing := [name for name in asked if name not in found] or [*ways] * (not found):
+        wanted = ", ".join(
+            dict.fromkeys(topic for name in missing for way in ways[name] for topic in way.topics if topic)
+        )
+        wanted = wanted or ", ".join(ways[missing[0]][0].columns)
+        there = (
+            ", ".join(tables.there or tables.topics or ["no topic"]) or f"the columns {', '.join(tables.columns(''))}"
+        )
         raise InputError(f"{path}: has no samples for {missing[0]} in {wanted}; it has {there}")
-    for name in in_body:
-        streams[name] = _in_world(f"{path}: stream {name}", streams[name], streams.get(MOTION[2]))
+    streams = {name: one.stream for name, one in found.items()}
+    for name, one in sorted(found.items(), key=lambda item: item[0] not in IMU):  # whose rate tells the most
+        check_rate(str(path), name, one.stream.time, one.way.time_unit)
+        if one.way.frame:
+            streams[name] = _in_world(f"{path}: stream {name}", streams[name], streams.get(MOTION[2]))
     first = min(float(stream.time[0]) for stream in streams.values())
-    return Log({name: Stream(stream.time - first, stream.values) for name, stream in streams.items()}, str(path))
+    told = [reset for name, one in found.items() for reset in _counted(name, one, tables, first)]
+    notes = dict.fromkeys((*tables.notes, *(note for one in found.values() for note in one.notes)))
+    log = Log({name: Stream(stream.time - first, stream.values) for name, stream in streams.items()}, str(path))
+    return with_resets(replace(log, notes=(*notes, *gaps(log))), told)
 
 
-def _stream(place: str, way: Way, tables: LogTables) -> Stream | None:
-    """A stream by a way to it; None if its topic is not there or has no numbers."""
-    parts = [
-        _part(f"{place}: {topic}" if topic else place, way, tables, topic)
-        for topic in way.topics
-        if topic in tables.topics
-    ]
-    if not parts or not all(len(part.time) for part in parts):
+def _stream(path: Path, name: str, way: Way, tables: LogTables, *, is_own: bool) -> Found | None:
+    """A stream by a way to it; None if its topic is not there or has no numbers.
+
+    Raises:
+        InputError: a topic or column of a user's own map is not there; `is_own`.
+    """
+    place = f"{path}: stream {name}"
+    topics = way.topics
+    if topics == ("",) and [*tables.topics] != [""]:
+        topics = tuple(t for t in tables.topics if {*way.columns} <= {*tables.columns(t)})[:1] or ("",)
+    there = [topic for topic in topics if topic in tables.topics]
+    if is_own and there and len(there) < len(topics):
+        lost = next(topic for topic in topics if topic not in there)
+        raise InputError(f"{place}: has no samples in {lost}; it has {', '.join(tables.there or tables.topics)}")
+    if not is_own:
+        there = [topic for topic in there if _has_columns(way, tables, topic)]
+    if not there:
         return None
-    time = parts[0].time
-    time = time[np.all([_heard(part.time, time) for part in parts], axis=0)]
-    if not len(time):
+    parts = [_part(f"{place}: {topic}" if topic else place, way, tables, topic) for topic in there]
+    if not all(len(part.time) for part, _ in parts):
         return None
-    values = np.hstack([np.array([np.interp(time, part.time, v) for v in part.values.T]).T for part in parts])
-    if isinstance(way.scale, tuple) and len(way.scale) * len(parts) != values.shape[1]:
-        raise InputError(f"{place}: scale has {len(way.scale)} numbers for {values.shape[1] // len(parts)} columns")
-    scale = np.array(way.scale * len(parts) if isinstance(way.scale, tuple) else way.scale)
-    return Stream(time, values * scale * _factor(way.unit))
+    (time, values), notes = parts[0][0], tuple(note for _, own in parts for note in own)
+    if len(parts) > 1:
+        time = time[np.all([_heard(part.time, time) for part, _ in parts], axis=0)]
+        if not len(time):
+            return None
+        values = np.hstack([np.array([np.interp(time, own, v) for v in part.T]).T for (own, part), _ in parts])
+    return Found(Stream(time, _turned(place, way, values, len(parts))), way, there[0], notes)
+
+
+def _has_columns(way: Way, tables: LogTables, topic: str) -> bool:
+    try:
+        for column in (*way.columns, *([way.time_offset] if way.time_offset else [])):
+            tables.column(topic, column)
+    except KeyError:
+        return False
+    return True
+
+
+def _turned(place: str, way: Way, values: Array, parts: int) -> Array:
+    """The values of a way's columns in our units, axes and, of an attitude, as quaternions."""
+    width = values.shape[1] // parts
+    numbers = list[Any]()
+    for key, number in (("offset", way.offset), ("scale", way.scale)):
+        if isinstance(number, tuple) and len(number) != width:
+            raise InputError(f"{place}: {key} has {len(number)} numbers for {width} columns")
+        numbers.append(np.array(number * parts if isinstance(number, tuple) else number))
+    offset, factor = numbers[0], numbers[1] * factor_of(way.unit)
+    values = values + offset if np.any(offset != 0.0) else values
+    values = values * factor if np.any(factor != 1.0) else values
+    values = quaternions_of(values, way.angles) if way.angles else values
+    if way.up == "y":
+        values = values.copy()
+        for axis in range(values.shape[1] % 3, values.shape[1], 3):  # of a quaternion, after its real part
+            values[:, axis + 1], values[:, axis + 2] = -values[:, axis + 2], values[:, axis + 1].copy()
+    return values
+
+
+def quaternions_of(angles: Array, kind: str) -> Array:
+    """Quaternions w, x, y, z (n, 4) of angles (n, 3) [rad]; `kind`: as `Way.angles`."""
+    if kind == ROTATION_VECTOR:
+        size = np.linalg.norm(angles, axis=1, keepdims=True)
+        return np.hstack([np.cos(0.5 * size), 0.5 * np.sinc(size / (2.0 * np.pi)) * angles])
+    turns = []
+    for angle, letter in zip(angles.T, kind.lower(), strict=True):
+        turn = np.zeros((len(angle), 4))
+        turn[:, 0], turn[:, 1 + "xyz".index(letter)] = np.cos(0.5 * angle), np.sin(0.5 * angle)
+        turns.append(turn)
+    a, b, c = turns if kind.isupper() else turns[::-1]
+    return quaternion_product(quaternion_product(a, b), c)
 
 
 def _heard(own: Array, times: Array) -> NDArray[np.bool_]:
@@ -203,21 +277,77 @@ def _heard(own: Array, times: Array) -> NDArray[np.bool_]:
     return np.asarray((before >= 0) & (after < len(own)) & (apart <= GAP * usual))
 
 
-def _part(place: str, way: Way, tables: LogTables, topic: str) -> Stream:
-    """The samples of one topic, without rows that have no number, and without repeated stamps."""
+def _part(place: str, way: Way, tables: LogTables, topic: str) -> tuple[Stream, tuple[str, ...]]:
+    """(The samples of one topic that have a number and a stamp, in order, and sentences about what was mended)."""
 
     def column(name: str) -> Array:
-        try:
-            return tables.column(topic, name)
-        except KeyError:
-            raise InputError(f"{place}: {unknown('column', name, tables.columns(topic))}") from None
+        return _column(place, tables, topic, name)
 
-    stamps = (way.time,) if isinstance(way.time, str) else way.time
-    time = column(next((name for name in stamps if name in tables.columns(topic)), stamps[0])) * _factor(way.time_unit)
-    values = [column(name) for name in way.columns]
-    rows = np.hstack([v.reshape(len(time), -1) for v in values])
-    some = np.isfinite(rows).any(axis=1)
-    return without_repeats(Stream(time[some], rows[some]))
+    _check_units(place, way, tables)
+    own = [column(name) for name in way.columns]
+    rows = own[0] if len(own) == 1 and own[0].ndim == 2 else np.column_stack([v.reshape(len(v), -1) for v in own])
+    some = np.isfinite(rows[:, 0])
+    for v in rows.T[1:]:
+        some |= np.isfinite(v)
+    time, notes = _stamps(place, way, tables, topic, some)
+    some &= np.isfinite(time)
+    for name, allowed in way.where.items():
+        some &= np.isin(column(name) if name in tables.columns(topic) else np.zeros(len(time)), allowed)
+    if way.time_offset:
+        late = column(way.time_offset)
+        some &= np.abs(late) < NO_TIME
+        time = time + np.where(some, late, 0.0) * factor_of(way.time_unit)
+    if not some.all():
+        rows, time = rows[some], time[some]
+    check_order(place, time, np.flatnonzero(some))
+    rows = np.unwrap(rows, period=2.0 * math.pi / factor_of(way.unit), axis=0) if _is_euler(way) else rows
+    stream, said = distinct(place, Stream(time, rows))
+    return stream, (*notes, *said)
+
+
+def _is_euler(way: Way) -> bool:
+    return way.angles not in ("", ROTATION_VECTOR)
+
+
+def _column(place: str, tables: LogTables, topic: str, name: str) -> Array:
+    try:
+        return tables.column(topic, name)
+    except KeyError:
+        raise InputError(f"{place}: {unknown('column', name, tables.columns(topic))}") from None
+
+
+def _stamps(
+    place: str, way: Way, tables: LogTables, topic: str, valued: NDArray[np.bool_]
+) -> tuple[Array, tuple[str, ...]]:
+    """(The stamps [s] of a topic's rows, NaN where there is none, sentences about what was mended)."""
+    there = [name for name in way.stamps if name in tables.columns(topic)]
+    columns = [*(there or way.stamps[:1]), *([tables.arrival] if tables.arrival else [])]
+    units = {name: "s" if name == tables.arrival else way.time_unit for name in columns}
+    times = {name: _column(place, tables, topic, name) * factor_of(unit) for name, unit in units.items()}
+    taken, is_bag = columns[0], bool(tables.arrival)  # whose stamps count from the first one
+    if valued.any():
+        lost = {name: np.mean(~has_stamp(time, zero_is_one=is_bag)[valued]) for name, time in times.items()}
+        taken = next((name for name in columns if lost[name] <= MISSING), taken)
+    time = times[taken]
+    rows, kept, mended = stamped(f"{place}: column {taken}", time, valued, zero_is_one=is_bag)
+    if not len(kept):
+        raise InputError(f"{place}: all its stamps in {', '.join(columns)} are empty or 0")
+    if not rows.all() or mended:
+        time = np.full(len(time), np.nan)
+        time[rows] = kept
+    instead = f"{place}: its stamps in {columns[0]} are empty or 0: those in {taken} are taken"
+    return time, ((instead,) * (taken != columns[0]) + mended)
+
+
+def _check_units(place: str, way: Way, tables: LogTables) -> None:
+    """Refuse a map without a unit for columns, or stamps, that the table says to be in another one."""
+    signs = {abs(s) for s in (way.scale if isinstance(way.scale, tuple) else (way.scale,))}
+    asked = [("unit", name) for name in way.columns if "unit" not in way.model_fields_set and signs == {1.0}]
+    asked += [("time_unit", name) for name in way.stamps if "time_unit" not in way.model_fields_set]
+    for key, name in asked:
+        said = SPELT.get(tables.units.get(name, ""), tables.units.get(name, ""))
+        if said in UNITS and factor_of(said) != 1.0:
+            raise InputError(f'{place}: column {name} is in {said}, by the table: say {key} = "{said}"')
 
 
 def _in_world(place: str, stream: Stream, attitude: Stream | None) -> Stream:
@@ -227,65 +357,16 @@ def _in_world(place: str, stream: Stream, attitude: Stream | None) -> Stream:
     return Stream(stream.time, to_world(attitude.at(stream.time), stream.values))
 
 
-# ---- The tables of files: a CSV file is one table; a topic of a bag or of a ULog is one
-
-
-class LogTables(NamedTuple):
-    """The tables of a file.
-
-    Attributes:
-        topics: their names; a CSV file has one, "".
-        columns: the names of a topic's columns; of messages, their outer fields.
-        column: a column (n,) of a topic by name, or a field of several numbers (n, k); KeyError if there is none.
-    """
-
-    topics: Sequence[str]
-    columns: Callable[[str], Iterable[str]]
-    column: Callable[[str, str], Array]
-
-
-def csv_table(path: Path) -> LogTables:
-    """A table in a file: a line of names, then numbers; an empty cell is none."""
-    names, columns = read_csv(path)
-    table = dict(zip(names, columns, strict=True))
-
-    def column(_: str, name: str) -> Array:
-        if names.count(name) > 1:
-            raise InputError(f"{path}: has {names.count(name)} columns {name}: one that is read must have its own name")
-        return table[name]
-
-    return LogTables([""], lambda _: table, column)
-
-
-def ulog_tables(path: Path) -> LogTables:
-    """The topics of a ULog, the log of PX4; of several instances of a topic, the first."""
-    with extra("identify", "a ULog"):
-        from pyulog import ULog
-    try:
-        with path.open("rb") as file:
-            tables = {topic.name: topic.data for topic in reversed(ULog(file).data_list)}
-    except OSError:
-        raise
-    except Exception as error:  # all errors that arbitrary content can cause in the reader
-        raise InputError(f"{path}: cannot be read as a ULog ({error})") from error
-    return LogTables(sorted(tables), tables.__getitem__, lambda topic, name: np.array(tables[topic][name], dtype=float))
-
-
-def bag_tables(path: Path, wanted: Iterable[str]) -> LogTables:
-    """The topics of a bag, with the messages of those that are wanted; a column is a field, as `pose.position.x`."""
-    found = defaultdict[str, list[tuple[int, Any]]](list)
-    with reading_bag(path) as bag:
-        for topic, at, message in bag.messages({*wanted}):
-            found[topic].append((stamp_of(message, at), message))
-    first = min((stamp for rows in found.values() for stamp, _ in rows), default=0)
-    messages = {topic: sorted(rows, key=lambda row: row[0]) for topic, rows in found.items()}
-
-    def column(topic: str, name: str) -> Array:
-        if name == TIME:
-            return np.array([(stamp - first) / SECOND for stamp, _ in messages[topic]])
-        try:
-            return np.array([reduce(getattr, name.split("."), m) for _, m in messages[topic]], dtype=float)
-        except (AttributeError, TypeError, ValueError):
-            raise KeyError(name) from None
-
-    return LogTables(bag.topics, lambda topic: (TIME, *vars(messages[topic][0][1])), column)
+def _counted(name: str, found: Found, tables: LogTables, first: float) -> Iterable[Reset]:
+    """The resets that the topic of a stream counts, at times [s] after the log's first stamp."""
+    known = {*tables.columns(found.topic)} if found.topic else set()
+    for counter, (stream, sizes) in COUNTED.items():
+        if counter in known and (stream or name) == name and name in MOTION:
+            counts = tables.column(found.topic, counter)
+            time, _ = _stamps(name, found.way, tables, found.topic, np.isfinite(counts))
+            parts = [tables.column(found.topic, n) for n in sorted(known) if sizes and n.partition("[")[0] == sizes]
+            for row in np.flatnonzero(np.diff(counts) != 0.0) + 1:
+                delta = np.array([part[row] for part in parts])
+                length = float(np.linalg.norm(delta)) if parts else math.nan
+                size = 2.0 * math.acos(min(1.0, abs(float(delta[0])))) if len(delta) == 4 else length
+                yield Reset(name, float(time[row]) - first, size)

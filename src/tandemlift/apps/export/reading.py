@@ -119,14 +119,16 @@ def reading_bag(path: Path) -> Iterator[Bag]:
         from rosbags.highlevel import AnyReader
         from rosbags.rosbag2.storage_mcap import McapReader
     store, alone = typesys.get_typestore(typesys.Stores.ROS2_HUMBLE), path.suffix.lower() == ".mcap"
+    _check_whole(path)
     reader: Any = McapReader(path) if alone else AnyReader([path], default_typestore=store)
 
     def messages(topics: Container[str]) -> Iterator[tuple[str, int, Any]]:
+        own = _typestore(typesys, reader.connections) if alone else store
         for connection, at, data in reader.messages([c for c in reader.connections if c.topic in topics]):
             yield (
                 connection.topic,
                 at,
-                (store.deserialize_cdr if alone else reader.deserialize)(data, connection.msgtype),
+                (own.deserialize_cdr if alone else reader.deserialize)(data, connection.msgtype),
             )
 
     try:
@@ -139,6 +141,43 @@ def reading_bag(path: Path) -> Iterator[Bag]:
         raise
     except Exception as error:  # all errors that arbitrary content can cause in the reader
         raise InputError(f"{path}: cannot be read as a bag ({error})") from error
+
+
+MCAP_MAGIC = b"\x89MCAP0\r\n"
+
+
+def _check_whole(path: Path) -> None:
+    """Refuse a file, or a file of a folder, whose recorder ended before it wrote the file's end."""
+    for file in sorted(path.glob("*.mcap")) if path.is_dir() else [path] * (path.suffix.lower() == ".mcap"):
+        with file.open("rb") as content:
+            begin = content.read(len(MCAP_MAGIC))
+            content.seek(max(0, file.stat().st_size - len(MCAP_MAGIC)))
+            end = content.read()
+        if begin == MCAP_MAGIC != end:
+            way = (
+                f"`mcap recover {file.name} -o whole.mcap` writes the messages before the cut into a file that is whole"
+            )
+            raise InputError(f"{file}: is cut: its end is missing, as after a crash of the recorder. {way}")
+    if path.is_dir() and [*path.glob("*.mcap")] and not (path / "metadata.yaml").is_file():
+        files = ", ".join(sorted(file.name for file in path.glob("*.mcap")))
+        raise InputError(f"{path}: has no metadata.yaml, which the recorder writes at its end: give the file {files}")
+
+
+def _typestore(typesys: Any, connections: Any) -> Any:
+    """The messages' types by the definitions in a file; without any, those of ROS 2 Humble."""
+    types: dict[str, Any] = {}
+    for definition, kind in ((c.msgdef, c.msgtype) for c in connections if c.msgdef.data):
+        if definition.format.name == "MSG":
+            types.update(typesys.get_types_from_msg(definition.data, kind))
+        else:
+            texts = [
+                part.partition("\n")[2] for part in definition.data.split("=" * 80 + "\n") if part.startswith("IDL: ")
+            ]
+            for text in texts or [definition.data]:
+                types.update(typesys.get_types_from_idl(text))
+    store = typesys.get_typestore(typesys.Stores.EMPTY if types else typesys.Stores.ROS2_HUMBLE)
+    store.register(types)
+    return store
 
 
 def stamp_of(message: Any, at: int) -> int:

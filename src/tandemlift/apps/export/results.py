@@ -164,22 +164,21 @@ def read_curves(path: Path, wanted: Iterable[str]) -> tuple[Flight, list[str]]:
     """
     import numpy as np
 
-    from tandemlift.apps.export.logs import csv_table
+    from tandemlift.analysis.logs.maps import TableSettings
+    from tandemlift.apps.export.text_tables import read_table
     from tandemlift.flight.channels import DERIVED, channel_of
     from tandemlift.flight.data_frames import column_names
     from tandemlift.flight.record import Flight
 
-    try:
-        table = csv_table(path)
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path}: is no text in UTF-8 ({error.reason} at byte {error.start})") from None
-    columns = list(table.columns(""))
+    settings = TableSettings()
+    columns = list(read_table(path, ("time", "time[s]"), settings).columns(""))
     given = {re.sub(r"\[[^]]*\]", "", name).replace(".", "_"): name for name in columns}
     if len(given) < len(columns):
         twice = next(name for name in columns if name not in given.values())
         raise InputError(f"{path}: {twice} is a column under two names; one must go")
     if "time" not in given:
         raise InputError(f"{path}: has no column time [s]; it has {', '.join(given)}")
+    table = read_table(path, columns, settings)
     time, channels, read = table.column("", given["time"]), {}, {given["time"]}
     if len(time) < 2 or not (np.diff(time) > 0.0).all():
         raise InputError(f"{path}: time must rise from line to line, in two lines at least")

@@ -7,28 +7,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-//if pilot
-#define NOT_FINITE \
-    "at %.17g s, a number of position, velocity, attitude, rates, push_force or push_moment is not finite: without " \
-    "supervision the pilot takes no such sample"
-
-//end pilot
-/* Inputs before an importer sets them. */
+/* Inputs before an importer sets them, and their names. */
 static const double INPUT[FMU_INPUTS] = {/*@STARTS@*/};
+static const char *const INPUT_NAME[FMU_INPUTS] = {
+/*@NAMES@*/
+};
 //if flight
 
 /* The place of each output in a sample. */
 static const uint16_t PLACE[FMU_OUTPUTS] = {/*@PLACES@*/};
 //end flight
 
-/* Parameters by their keys: bounds, and whether these are open. */
+/* Parameters by their keys: bounds, whether these are open, and whether it may be set between steps. */
 static const struct {
     const char *key;
     double least, most;
-    bool above, below;
+    bool above, below, is_tunable;
 } PARAMETER[FMU_PARAMETERS + 1] = {
 /*@BOUNDS@*/
-    {"", 0.0, 0.0, false, false}
+    {"", 0.0, 0.0, false, false, false}
 };
 
 /* The keys of each condition under which this code is that of the mission. */
@@ -48,6 +45,26 @@ void fmu_report(FmuInstance *instance, bool is_error, const char *format, ...)
         *c = *c == '%' ? '?' : *c;
     }
     instance->send(instance, is_error, text);
+}
+
+/* Whether all inputs are finite; else the first one that is not is reported. */
+static bool are_finite(FmuInstance *instance, bool is_error)
+{
+    for (int i = 0; i < FMU_INPUTS; i++) {
+        if (!isfinite(instance->model.inputs[i])) {
+//if pilot
+            fmu_report(instance, is_error,
+                "at %.17g s, %s = %g is not finite: without supervision the pilot takes no such sample",
+                instance->model.time, INPUT_NAME[i], instance->model.inputs[i]);
+//end pilot
+//if flight
+            fmu_report(instance, is_error, "at %.17g s, %s = %g is not finite: no step can be taken with it",
+                instance->model.time, INPUT_NAME[i], instance->model.inputs[i]);
+//end flight
+            return false;
+        }
+    }
+    return true;
 }
 
 static FmuResult failed(FmuInstance *instance)
@@ -108,12 +125,15 @@ static bool are_allowed(FmuInstance *instance)
     return true;
 }
 
-/* The numbers of the code from the parameters, before the first step. */
+/* The numbers of the code from the parameters: before the first step, or of the steps to come. */
 static bool prepare(FmuInstance *instance)
 {
     FmuModel *model = &instance->model;
     /*@NUMBERS@*/ numbers;
     int wrong;
+//if pilot
+    const mission_PilotData before = model->pilot;
+//end pilot
     if (!are_allowed(instance)) {
         return false;
     }
@@ -130,9 +150,20 @@ static bool prepare(FmuInstance *instance)
         return false;
     }
 //if flight
-    mission_flight_start_from(&model->flight, &model->prepared.model, &model->prepared.inputs);
+    if (model->mode == FMU_STEPPING) {
+        model->prepared.model.flight_state = model->flight.model.flight_state;
+        model->flight.model = model->prepared.model;
+    } else {
+        mission_flight_start_from(&model->flight, &model->prepared.model, &model->prepared.inputs);
+    }
 //end flight
-    model->is_current = false;
+//if pilot
+    if (model->mode == FMU_STEPPING) {
+        model->pilot.samples = before.samples;
+        model->pilot.memory = before.memory;
+    }
+//end pilot
+    model->is_current = model->is_tuned = false;
     return true;
 }
 
@@ -153,6 +184,11 @@ const char *fmu_key(uint32_t parameter)
     return PARAMETER[parameter].key;
 }
 
+bool fmu_is_tunable(uint32_t parameter)
+{
+    return PARAMETER[parameter].is_tunable;
+}
+
 //if flight
 static void put_outputs(FmuModel *model, const mission_Sample *sample)
 {
@@ -168,13 +204,16 @@ bool fmu_update(FmuInstance *instance)
     if (model->is_current || model->mode == FMU_INSTANTIATED) {
         return true;
     }
-    if (model->mode == FMU_INITIALIZING && !prepare(instance)) {
+    if ((model->mode == FMU_INITIALIZING || model->is_tuned) && !prepare(instance)) {
         return false;
     }
 //if flight
     {
         mission_Sample sample;
         mission_CallerInput external;
+        if (model->mode == FMU_INITIALIZING && !are_finite(instance, true)) {
+            return false;
+        }
         memcpy(&external, model->inputs, sizeof external);
         bind(model);
         if (mission_flight_look(&model->flight, &external, &sample)) {
@@ -188,7 +227,7 @@ bool fmu_update(FmuInstance *instance)
         mission_PilotInput input;
         memcpy(&input, model->inputs, sizeof input);
         if (!mission_pilot_step(&pilot, &input, model->outputs)) {
-            fmu_report(instance, true, NOT_FINITE, model->time);
+            are_finite(instance, true);
             return false;
         }
     }
@@ -251,15 +290,23 @@ FmuResult fmu_step(FmuInstance *instance, double time, double size)
             time, model->time, FMU_TIME_TOLERANCE, FMU_STEP);
         return failed(instance);
     }
+    if (model->is_tuned && !prepare(instance)) {
+        return failed(instance);
+    }
     for (int64_t left = (int64_t)count; left > 0; left--) {
         if (fmu_is_over(instance)) {
             fmu_report(instance, false, "the flight is over since %.17g s: by mission.duration, a crash or divergence",
                 model->time);
             return FMU_DISCARD;
         }
+//if flight
+        if (!are_finite(instance, false)) {
+            return FMU_DISCARD;
+        }
+//end flight
         if (!advance(model)) {
 //if pilot
-            fmu_report(instance, false, NOT_FINITE, model->time);
+            are_finite(instance, false);
 //end pilot
             return FMU_DISCARD;
         }

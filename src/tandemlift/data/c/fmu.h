@@ -43,6 +43,7 @@ typedef struct {
     int64_t steps; /* taken since then */
     FmuMode mode;
     bool is_current; /* whether the outputs are those of the present state and inputs */
+    bool is_tuned; /* whether parameters were set since the last step */
 //if flight
     mission_Prepared prepared;
     mission_Flight flight;
@@ -72,7 +73,7 @@ FmuResult fmu_initialize(FmuInstance *instance, double start);
 FmuResult fmu_begin(FmuInstance *instance);
 
 /* From the time of an importer by a step of its own [s], which must be on the grid of the mission's steps. Discarded from
- * the step on that cannot be taken: the flight is over, or a pilot is given numbers that are not finite. */
+ * the step on that cannot be taken: the flight is over, or an input is not finite. */
 FmuResult fmu_step(FmuInstance *instance, double time, double size);
 
 /* Whether no further step can be taken: the mission's duration is over, or the flight crashed or diverged. */
@@ -81,6 +82,9 @@ bool fmu_is_over(const FmuInstance *instance);
 /* Compute the outputs of the present state and inputs, unless they are there. The key of a parameter. */
 bool fmu_update(FmuInstance *instance);
 const char *fmu_key(uint32_t parameter);
+
+/* Whether a parameter may be set between steps. */
+bool fmu_is_tunable(uint32_t parameter);
 
 /* Read or write numbers: `count` for each reference, the size of the array there if it is 0. Returns how many numbers
  * were read or written, or −1 after an error. */

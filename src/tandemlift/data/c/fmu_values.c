@@ -26,11 +26,12 @@ static double *number(FmuInstance *instance, uint32_t reference, bool writes)
         return 0;
     }
     if (at < FMU_PARAMETERS) {
-        if (writes && !starts) {
+        if (writes && !starts && !(model->mode == FMU_STEPPING && fmu_is_tunable((uint32_t)at))) {
             fmu_report(instance, true, "%s: is a parameter, and set before the end of initialization only",
                 fmu_key((uint32_t)at));
             return 0;
         }
+        model->is_tuned = model->is_tuned || (writes && !starts);
         return &model->parameters[at];
     }
     at -= FMU_PARAMETERS;

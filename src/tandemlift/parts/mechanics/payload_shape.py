@@ -23,6 +23,8 @@ KINDS = (".stl", ".obj", ".ply")
 SMALLEST, LARGEST = 1e-3, 20.0  # m, extent of a payload
 FINE, ROUGH = 1e-3, 0.02  # of the extent: how far a mesh may stick out of its hull until corners are added, or silently
 ALIKE = 1e-5  # of the extent: points are as far as this out of a plane alike
+PLACES, COUNTED = (16, 2048), 2e6  # under a mesh at which its layers are counted: how many, and times its triangles
+SPREAD = 0.7548776662466927, 0.5698402909980532  # steps of an even sequence in a square (Roberts' R2)
 COMES = ("center_of_mass", "inertia", "products", "corners")  # keys that come from a mesh
 
 
@@ -95,17 +97,58 @@ def _body(path: str, changed: int, scale: float) -> MeshBody:
             f"{given}: {size}" + (f": {hint}" if extent > LARGEST else f", or mesh_scale = {scale:g} larger")
         )
     if not closed:
-        raise InputError(f"{given}: must be closed, with all triangles turned outside, or it has no mass")
+        raise InputError(f"{given}: must be closed, with all triangles turned outside, or it has no mass{_open(mesh)}")
     if volume <= 0.0:
         raise InputError(
             f"{given}: is inside out, with a volume of {volume:g} m³: its triangles must be turned outside"
         )
+    if (deep := _layers(np.asarray(mesh.triangles, dtype=float))) is not None:
+        why = "bodies overlap, or an inner surface is turned outside" if deep[0] > 0 else "a body is inside out"
+        at = np.round(deep[1], 3).tolist()
+        raise InputError(f"{given}: its {volume:.4g} m³ count the place {at} m {deep[0]} times: {why}")
     hull, out = few_corners(np.asarray(mesh.vertices, dtype=float))
     if out > ROUGH * extent:
         text = f"{given}: sticks out of its convex hull of {MOST_CORNERS} corners, which touches, by {out:.2g} m"
         warnings.warn(text, FlightWarning, stacklevel=2)
     tensor = np.asarray(mesh.moment_inertia, dtype=float) / float(mesh.density)
     return MeshBody(volume, np.asarray(mesh.center_mass, dtype=float), tensor, tuple(map(tuple, hull.corners.tolist())))
+
+
+def _open(mesh: Any) -> str:
+    """How many edges of a mesh have not two triangles, where, and what can be done."""
+    edges, counts = np.unique(mesh.edges_sorted, axis=0, return_counts=True)
+    if not np.any(counts != 2):
+        return ": some triangles are turned inside"
+    places = np.round(mesh.vertices[edges[counts != 2].ravel()], 3)
+    found = f"{int(np.sum(counts != 2))} of {len(edges)} edges have not two triangles"
+    way = 'close it where it is drawn, or give mass, inertia and corners of its hull with shape = "mesh"'
+    return f": {found}, from {places.min(0).tolist()} to {places.max(0).tolist()} m: {way}"
+
+
+def _layers(triangles: Array) -> tuple[int, Array] | None:
+    """(How many times a surface winds round a place under it, the place [m]), if that is not once anywhere.
+
+    The winding number is the sum of the solid angles of all triangles over 4π (Jacobson et al., ACM Trans. Graph. 32,
+    2013; of one by van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30, 1983). Places are spread evenly over the
+    surface, under it by a hundred thousandth of a triangle's size: walls are thicker.
+    """
+    corners = np.ascontiguousarray(triangles.transpose(1, 0, 2))
+    normals = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+    sizes = np.linalg.norm(normals, axis=1)
+    every = np.arange(int(np.clip(COUNTED / len(sizes), *PLACES)))
+    chosen = np.searchsorted(np.cumsum(sizes), (every + 0.5) / len(every) * sizes.sum())
+    u, v = (0.5 + np.outer(SPREAD, every)) % 1.0
+    u, v = np.where(u + v > 1.0, 1.0 - u, u), np.where(u + v > 1.0, 1.0 - v, v)
+    on = np.einsum("kn,kni->ni", np.stack([1.0 - u - v, u, v]), corners[:, chosen])
+    for place in on - 1e-5 * normals[chosen] / np.sqrt(sizes[chosen, None]):
+        a, b, c = corners - place
+        x, y, z = np.sqrt(np.einsum("kni,kni->kn", (a, b, c), (a, b, c)))
+        ab, bc, ca = (np.einsum("ni,ni->n", p, q) for p, q in ((a, b), (b, c), (c, a)))
+        volume = np.einsum("ni,ni->n", a, np.cross(b, c))
+        layers = round(float(np.arctan2(volume, x * y * z + ab * z + bc * x + ca * y).sum()) / (2.0 * np.pi))
+        if layers != 1:
+            return layers, place
+    return None
 
 
 def few_corners(points: Array) -> tuple[ConvexHull, float]:
