@@ -12,8 +12,9 @@ import numpy as np
 from tandemlift.core.errors import CheckResult, InputError, refused
 from tandemlift.core.phases import HARD
 from tandemlift.missions import outcomes
+from tandemlift.missions.facts import Facts
 from tandemlift.missions.flight_checks import flight_checks
-from tandemlift.missions.mission import Mission, MissionTable
+from tandemlift.missions.mission import PARTS, Mission, MissionTable
 from tandemlift.missions.recording import read_recording
 from tandemlift.parts.contact import standing
 from tandemlift.parts.contact.corridor import wall_checks, wall_warnings
@@ -30,7 +31,6 @@ from tandemlift.parts.interaction.requests import request_checks
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
 from tandemlift.parts.pilot.check_results import check_lines as check_lines
-from tandemlift.parts.pilot.excitation import time_checks as excitation_time_checks
 from tandemlift.parts.pilot.push_checks import on_vehicle_checks
 from tandemlift.parts.pilot.schedule_checks import phase_checks, phase_warnings, wind_warnings
 from tandemlift.parts.pilot.vehicle_checks import vehicle_checks
@@ -49,7 +49,7 @@ GRIP = slice(1, 4)  # of a recorded hand
 def refusals(m: Mission) -> Iterator[CheckResult]:
     """Refusals of missions that no pilot can fly, in the order of their search; after one, others may not compute."""
     guidance, step, rotors, s = m.pilot.guidance, m.mission.step, m.actuators.model, m.sensors
-    count, walls = len(m.vehicle.quadrotors), bool(m.all_walls)
+    facts, count, walls = Facts(m), len(m.vehicle.quadrotors), bool(m.all_walls)
     yield from time_checks(m.mission)
     yield from log_checks(m.mission, m.sample_size)
     yield from phase_checks(m.phases)
@@ -73,7 +73,8 @@ def refusals(m: Mission) -> Iterator[CheckResult]:
     yield from wall_checks(m.walls)
     yield from supervision.supervision_checks(m.supervision, guidance)
     yield from request_checks(m.requests, guidance)
-    yield from excitation_time_checks(m.excitation, m.phases, step, m.mission.duration)
+    for part in PARTS:
+        yield from facts.ask(part, part.refusals)
     yield from estimator.hover_tare_checks(m.estimator, guidance)
     yield from gate_checks(m.admittance, guidance)
     yield from yaw_checks(m.compliance.yaw, m.hover.vehicle, guidance, step)

@@ -4,35 +4,23 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
-from typing import NamedTuple
 
 import numpy as np
 
 from tandemlift.core.errors import CLOSE, CheckResult, noted
-from tandemlift.missions.mission import Mission
+from tandemlift.core.part import FlightCheck
+from tandemlift.missions.facts import Facts
+from tandemlift.missions.mission import PARTS, Mission
 from tandemlift.missions.outcomes import promise_of
 from tandemlift.parts.controllers.interface import tilt_limit_of
 from tandemlift.parts.interaction.passage import passage_checks, way_checks
 from tandemlift.parts.pilot import schedule_checks
 from tandemlift.parts.pilot.controller_checks import gain_checks, offset_checks, start_checks
-from tandemlift.parts.pilot.excitation import excitation_checks
 from tandemlift.parts.pilot.loop_checks import loop_checks
 from tandemlift.parts.pilot.push_checks import point_checks, push_checks
 from tandemlift.parts.pilot.sensing_checks import sensing_checks
 from tandemlift.parts.rotors.authority import authority_checks
 from tandemlift.parts.rotors.hover_loads import Loads, WindOnParts, loads_of
-
-
-class FlightCheck(NamedTuple):
-    """A check: its name, value, limit and unit, the missions to which it applies, and the keys that change it."""
-
-    name: str
-    value: str
-    limit: str
-    unit: str
-    applies: str
-    keys: str
-
 
 ROTORS = '`actuators.model = "rotors"`'
 CHECKS = (
@@ -175,14 +163,7 @@ CHECKS = (
         "a push of the mission",
         "`pushes.*.point`",
     ),
-    FlightCheck(
-        "excitation",
-        "change of a rotor's thrust; tilt; way of the centre of mass, by the excitation without the controller",
-        "what the rotor has left in hover; the largest tilt that the controller or the guidance commands; the room",
-        "1, rad, m",
-        '`excitation.model = "multisine"`',
-        "`excitation.lines`, `excitation.room`",
-    ),
+    *(row for part in PARTS for row in part.rows),
     FlightCheck(
         "passage",
         "radius of a quadrotor's guard",
@@ -197,6 +178,7 @@ CHECKS = (
 @np.errstate(all="ignore")
 def flight_checks(m: Mission) -> tuple[CheckResult, ...]:
     """The results of all checks of a mission, by closed forms, in the order of the parts."""
+    facts = Facts(m)
     step, end, pilot, controller, hover = m.mission.step, m.mission.duration, m.pilot, m.controller, m.hover
     wind = WindOnParts(m.wind, hover.vehicle, m.initial.euler[2], step)
     by_hand, schedule = m.by_hand, schedule_checks.Schedule(m.phases, m.pushes, m.admittance, m.by_hand, end)
@@ -228,7 +210,7 @@ def flight_checks(m: Mission) -> tuple[CheckResult, ...]:
             way_checks(m.person, m.corridor, m.initial, m.phases, schedule.landing_duration, end),
         ),
         "push checks": push_checks(() if joined else m.pushes, m.admittance.threshold, compliant_yaw=compliant_yaw),
-        "excitation checks": excitation_checks(m.excitation, hover, tilt_limit_of(controller) or m.compliance.max_tilt),
+        **{f"{part.name} checks": iter(facts.ask(part, part.checks)) for part in facts.acting()},
         "point checks": point_checks(m.pushes, hover.vehicle),
         "passage checks": passage_checks(m.person, m.corridor, m.all_walls, m.initial, hover.vehicle),
     }

@@ -35,7 +35,7 @@ from tandemlift.parts.mechanics.trajectories import PhasesTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable, PlantTable, VehicleTable
 from tandemlift.parts.mechanics.wind import WindTable
-from tandemlift.parts.pilot.excitation import ExcitationTable
+from tandemlift.parts.pilot.excitation import EXCITATION, ExcitationTable
 from tandemlift.parts.pilot.loop_checks import ControlLoop, push_feedback, reading_delays
 from tandemlift.parts.rotors.allocation import AllocationTable
 from tandemlift.parts.rotors.detection_table import DetectionTable
@@ -208,10 +208,15 @@ class Mission(Table):
         return self.compliance if self.pilot.guidance == "interactive" else None
 
     @property
+    def nominal(self) -> Vehicle:
+        """The vehicle that the pilot assumes."""
+        return Vehicle.from_settings(self.vehicle)
+
+    @property
     def hover(self) -> HoverFacts:
         """The vehicle in hover, with all faults of rotors that the flight has."""
         faults = tuple(f for f in self.faults if f.time < self.mission.duration)
-        return HoverFacts(Vehicle.from_settings(self.vehicle), self.plant, self.actuators, self.allocation, faults)
+        return HoverFacts(self.nominal, self.plant, self.actuators, self.allocation, faults)
 
     @property
     def control_loop(self) -> ControlLoop:
@@ -257,6 +262,10 @@ class Mission(Table):
         }
         cells = (f"<tr><th style='text-align:left'>{k}</th><td>{escape(v)}</td></tr>" for k, v in rows.items())
         return f"<table>{''.join(cells)}</table>"
+
+
+PARTS = (EXCITATION,)
+"""The optional parts of a flight, in the order of their checks and channels."""
 
 
 def check_keys(tables: Mapping[str, Any]) -> None:

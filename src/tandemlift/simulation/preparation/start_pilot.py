@@ -8,6 +8,7 @@ from tandemlift.core.algebra import minimum
 from tandemlift.core.types import NEVER
 from tandemlift.core.vector import ZERO, Absent, Vec3, each, vec3
 from tandemlift.missions import Mission
+from tandemlift.missions.facts import Facts
 from tandemlift.parts.controllers import controller
 from tandemlift.parts.estimation.contact_table import start_contact_detection
 from tandemlift.parts.estimation.disturbance_observer import start_observer
@@ -35,7 +36,6 @@ from tandemlift.parts.mechanics.low_pass import LowPassState
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.trajectories import PhasesTable, scheduled_phases
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.pilot.excitation import start_excitation
 from tandemlift.parts.pilot.pilot import PilotMemory, PilotParameters
 from tandemlift.parts.pilot.rotor_lead import start_lead
 from tandemlift.parts.rotors.allocation import hover_moments, mixer_of, start_allocation
@@ -68,8 +68,8 @@ def start_pilot(mission: Mission, vehicle: Vehicle) -> tuple[PilotParameters, Pi
         mission.detection, vehicle, effect, step, initial, hovers=hovers, observed=observed
     )
     lead, led = start_lead(mission.allocation, vehicle.weight, step, hovers=hovers)
-    excitation = start_excitation(mission.excitation)
-    parameters = PilotParameters(guidance, observer, gains, lead, allocation, detection, excitation)
+    parts, _ = Facts(mission).started("pilot")
+    parameters = PilotParameters(guidance, observer, gains, lead, allocation, detection, **parts)
     return parameters, PilotMemory(guidance_memory, observer_memory, memory, led, allocation_memory, detection_memory)
 
 
