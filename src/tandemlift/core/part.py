@@ -1,8 +1,7 @@
 """Optional parts of a flight declare themselves: one `Part` beside the table and the laws of each.
 
-Its functions name what they read: each argument is a fact of the mission of that name (`missions.facts`). So whoever
-goes over the parts knows none of them: the checks of a mission, the start of a flight, its channels, metrics and
-findings. Only the step does: it is the equations, and names each part where it acts.
+Its functions name what they read by their arguments (`missions.facts`). So whoever goes over the parts knows none of
+them; only the step does, for it is the equations.
 """
 
 from __future__ import annotations
@@ -12,6 +11,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.core.errors import CheckResult
 from tandemlift.core.findings import Finding
+from tandemlift.core.law import choice
 
 
 class FlightCheck(NamedTuple):
@@ -26,41 +26,39 @@ class FlightCheck(NamedTuple):
 
 
 Checks = Callable[..., Iterable[CheckResult]]
+Started = Callable[[str], tuple[dict[str, Any], dict[str, Any]]]
+"""Parameters and memory of the parts within something before the first sample, by name; `Absent` of others."""
 
 
 class Part(NamedTuple):
-    """What an optional part declares. Its functions may also ask for `table`, the value of its key.
+    """What an optional part declares.
 
-    Attributes:
-        name: of the field that holds its parameters, and of the one that holds its memory.
-        within: whose fields: those of the "pilot", of hand "guidance", its "compliance", or the "estimators".
-        key: of its table in a mission.
-        acts: the condition of a mission that has it (`core.keys.Table`); a part without it is `Absent`.
-        start: (parameters, memory) before the first sample.
-        refusals: results that reject a mission.
-        checks: results of a mission that may fly badly.
-        rows: what the checks compare, for the reference.
-        channels: the type of its channels.
-        log: its channels, from parameters, memory and the pilot's decision, unless the law of what has it gives them.
-        findings: of a flight; may also ask for its last parameters `k`, its memory `m` and the `last` state.
-        metrics: of a flight, by name; asks for the same.
-        metric_names: their names.
-        calm: whether a vehicle with it can rest in hover.
-        begins: the time [s] until which it can, at least.
+    `name` of the fields for its parameters and memory, `within` the "pilot", its hand "guidance", its "compliance", the
+    "estimators" or the "body"; the `key` of its table; where it `acts` (`core.keys.Table`), else it is `Absent`.
+    `start` gives (parameters, memory) before the first sample, or parameters alone if it does not remember. `refusals`
+    reject a mission, `checks` tell what may fly badly, `rows` say so in the reference. `channels`: their type;
+    `logged`: the group of a sample that has those of `channels_of`. `findings` and `metrics` of a flight may ask for
+    its last parameters `k` and memory `m`. `calm`: whether a vehicle with it rests in hover; if it `begins` [s], until
+    then.
     """
 
     name: str
     within: str
     key: str
     acts: str
-    start: Callable[..., tuple[Any, Any]]
-    refusals: Checks = lambda: ()
-    checks: Checks = lambda: ()
+    start: Callable[..., Any]
+    remembers: bool = True
+    refusals: Checks | None = None
+    checks: Checks | None = None
     rows: tuple[FlightCheck, ...] = ()
     channels: type[tuple[Any, ...]] | None = None
-    log: Callable[[Any, Any, Any], Any] | None = None
+    logged: str = ""
     findings: Callable[..., Iterator[Finding]] | None = None
     metrics: Callable[..., Mapping[str, Any]] | None = None
-    metric_names: tuple[str, ...] = ()
     calm: bool = True
     begins: Callable[..., float] | None = None
+
+
+@choice(absent="k")
+def channels_of(k: object, memory: Any, decision: Any) -> Any:
+    """The channels of a part of the pilot, from its parameters, and the pilot's memory and decision."""

@@ -10,8 +10,6 @@ from tandemlift.core.plugs import load_plugin
 from tandemlift.missions.changes import format_toml, merge, tables_of
 from tandemlift.missions.checking import changed, check
 from tandemlift.missions.keys.acting import IdleKey, idle_keys, sentences
-from tandemlift.missions.keys.precision import check_double as check_double
-from tandemlift.missions.keys.precision import with_precision as with_precision
 from tandemlift.missions.loading import (
     DATA,
     MissionLike,
@@ -30,6 +28,8 @@ from tandemlift.missions.mission import (
     VehicleTable,
     check_keys,
 )
+from tandemlift.missions.mission import check_double as check_double
+from tandemlift.missions.mission import with_precision as with_precision
 
 __all__ = [
     "DATA",

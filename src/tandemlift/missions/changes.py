@@ -16,9 +16,9 @@ from tandemlift.core.errors import InputError, shown
 from tandemlift.core.files import parts_of
 from tandemlift.core.keys import PerAxis
 from tandemlift.missions.key_descriptions import Model, table_in
-from tandemlift.missions.keys.places import Place as Place
-from tandemlift.missions.keys.places import Tables as Tables
-from tandemlift.missions.keys.places import places_in as places_in
+from tandemlift.missions.keys.acting import Place as Place
+from tandemlift.missions.keys.acting import Tables as Tables
+from tandemlift.missions.keys.acting import places_in as places_in
 from tandemlift.missions.mission import Mission
 from tandemlift.parts.controllers import CONTROLLERS
 from tandemlift.parts.interaction.admittance import with_feel

@@ -11,12 +11,11 @@ from pydantic import BaseModel, ValidationError
 from tandemlift.core.errors import FlightWarning, InputError, accepted, shown, suggestion, without_flight_warnings
 from tandemlift.core.plugs import GIVEN, Plugin, has, listed, plugin_of
 from tandemlift.missions.changes import MISSING, Place, Tables, changed_tables, tables_of, value_at
-from tandemlift.missions.checks import mission_checks, refusals
+from tandemlift.missions.checks import mission_checks, refusals, worst_failures
 from tandemlift.missions.keys.acting import idle_as_said
 from tandemlift.missions.mission import Mission
 from tandemlift.missions.refusals import Problem, problems_in
 from tandemlift.parts.controllers import CONTROLLERS, ControllerTable
-from tandemlift.parts.pilot.check_results import worst_failures
 from tandemlift.parts.pilot.payload_shape import with_bodies, with_mesh
 
 MAX_PROBLEMS = 8  # reported at once

@@ -1,70 +1,57 @@
 """What the functions of a flight's parts read of a mission, by the names of their arguments.
 
-A fact is a table of the mission, or another of its attributes, or what one of the functions below makes of other facts:
-such as the `step` in the table `[mission]`. A function that asks for facts has what it
-needs in its signature, and is called without a mission in tests.
+A fact is a table of the mission or another of its attributes, or what `MADE` makes of other facts. So a function has
+what it needs in its signature, and tests call it without a mission.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from functools import reduce
 from typing import Any
 
+from tandemlift.core.algebra import minimum
 from tandemlift.core.part import Part
+from tandemlift.core.types import Number
 from tandemlift.core.vector import Absent
 from tandemlift.missions.keys.acting import holds
-from tandemlift.missions.mission import PARTS, Mission, MissionTable
-from tandemlift.parts.controllers import ControllerTable
+from tandemlift.missions.mission import PARTS, Mission
 from tandemlift.parts.controllers.interface import tilt_limit_of
-from tandemlift.parts.guidance.compliance_table import ComplianceTable
-from tandemlift.parts.guidance.guidance import PilotTable
-from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.rotors.allocation import AllocationTable, Mixer, mixer_of
-from tandemlift.parts.rotors.rotors import ActuatorsTable
+from tandemlift.parts.guidance.compliance_table import push_filters
+from tandemlift.parts.guidance.start_guidance import phase_settings
+from tandemlift.parts.rotors.allocation import mixer_of
+from tandemlift.parts.rotors.rotor_faults import known_faults
+from tandemlift.parts.sensors.sensors_table import steps_of
 
 
-def step(mission: MissionTable) -> float:
-    """Sampling time of the pilot [s]."""
-    return mission.step
+def _least_tilt(controller: Number | None, guidance: Number) -> Number:
+    return guidance if controller is None else minimum(guidance, controller)
 
 
-def end(mission: MissionTable) -> float:
-    """Duration of the flight [s]."""
-    return mission.duration
-
-
-def guidance(pilot: PilotTable) -> str:
-    """`pilot.guidance`."""
-    return pilot.guidance
-
-
-def method(allocation: AllocationTable) -> str:
-    """`allocation.method`."""
-    return allocation.method
-
-
-def vehicle(nominal: Vehicle) -> Vehicle:
-    """The nominal vehicle."""
-    return nominal
-
-
-def effect(vehicle: Vehicle) -> Mixer:
-    """The wrench that the thrusts of its rotors make."""
-    return mixer_of(vehicle)
-
-
-def hovers(actuators: ActuatorsTable) -> bool:
-    """Whether the rotors have their hover speed at the start."""
-    return actuators.start == "hover"
-
-
-def max_tilt(controller: ControllerTable, compliance: ComplianceTable) -> float:
-    """The largest tilt [rad] that the controller commands, or the guidance."""
-    return tilt_limit_of(controller) or compliance.max_tilt
-
-
-MADE = {made.__name__: made for made in (step, end, guidance, method, vehicle, effect, hovers, max_tilt)}
+MADE: Mapping[str, Callable[..., Any]] = {
+    "step": lambda mission: mission.step,  # s: sampling time of the pilot
+    "end": lambda mission: mission.duration,  # s
+    "vehicle": lambda nominal: nominal,  # as the pilot assumes it
+    "weight": lambda nominal: nominal.weight,  # N
+    "effect": lambda nominal: mixer_of(nominal),  # the wrench of its rotors' thrusts
+    "known": lambda faults, nominal: known_faults(faults, nominal),  # the rotor faults that the pilot knows of
+    "hovers": lambda actuators: actuators.start == "hover",  # whether the rotors do so from the start
+    "guidance": lambda pilot: pilot.guidance,
+    "interactive": lambda guidance: guidance == "interactive",
+    "supervised": lambda supervision: supervision.model == "on",
+    "push": lambda pilot: pilot.push,
+    "joints": lambda estimator: estimator.wrench in ("joints", "fused"),  # whether joint sensors measure the push
+    "interval": lambda sensors, step: step * steps_of(sensors.interval, step),  # s: sampling time of the estimators
+    "method": lambda allocation: allocation.method,
+    "limited": lambda method: method == "constrained",  # whether the allocation knows what the rotors can give
+    "threshold": lambda admittance: admittance.threshold,  # N
+    "moment_threshold": lambda compliance: compliance.yaw.threshold,  # N m
+    "max_lead_angle": lambda compliance: compliance.yaw.max_lead_angle,  # rad
+    "max_tilt": lambda controller, compliance: tilt_limit_of(controller) or compliance.max_tilt,  # rad
+    "guidance_tilt": lambda controller, compliance: _least_tilt(tilt_limit_of(controller), compliance.max_tilt),  # rad
+    "push_filters": push_filters,
+    "phase_settings": phase_settings,
+}
 
 
 class Facts(dict[str, Any]):
@@ -75,6 +62,8 @@ class Facts(dict[str, Any]):
         self.of = mission
 
     def __missing__(self, name: str) -> Any:
+        if name == "started":  # not kept: a circle would outlive the numbers that are traced
+            return self.started
         self[name] = made = self.call(MADE[name]) if name in MADE else getattr(self.of, name)
         return made
 
@@ -88,16 +77,17 @@ class Facts(dict[str, Any]):
         """A function that a part declares."""
         return self.call(function, {"table": reduce(getattr, part.key.split("."), self.of), **own})
 
-    def acting(self) -> Iterator[Part]:
-        """The parts that the mission has."""
-        return (part for part in PARTS if not part.acts or holds(self.of, part.acts))
+    def has(self, part: Part) -> bool:
+        """Whether the mission has a part."""
+        return all(holds(self.of, condition) for condition in part.acts.split(" and ") if condition)
 
     def started(self, within: str) -> tuple[dict[str, Any], dict[str, Any]]:
         """Parameters and memory of the parts within something before the first sample, by name; of others `Absent`."""
-        acting = set(map(id, self.acting()))
         parameters, memory = dict[str, Any](), dict[str, Any]()
         for part in PARTS:
-            if part.within == within:
-                begun = self.ask(part, part.start) if id(part) in acting else (Absent(), Absent())
-                parameters[part.name], memory[part.name] = begun
+            if part.within == within and ((has := self.has(part)) or part.name not in parameters):
+                begun: Any = self.ask(part, part.start) if has else Absent()
+                k, m = begun if has and part.remembers else (begun, Absent())
+                parameters[part.name] = k
+                memory |= {part.name: m} if part.remembers else {}
         return parameters, memory

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
 
 import numpy as np
@@ -17,8 +16,8 @@ from tandemlift.parts.interaction.passage import passage_checks, way_checks
 from tandemlift.parts.pilot import schedule_checks
 from tandemlift.parts.pilot.controller_checks import gain_checks, offset_checks, start_checks
 from tandemlift.parts.pilot.loop_checks import loop_checks
-from tandemlift.parts.pilot.push_checks import point_checks, push_checks
 from tandemlift.parts.pilot.sensing_checks import sensing_checks
+from tandemlift.parts.pilot.vehicle_checks import point_checks, push_checks
 from tandemlift.parts.rotors.authority import authority_checks
 from tandemlift.parts.rotors.hover_loads import Loads, WindOnParts, loads_of
 
@@ -31,14 +30,6 @@ CHECKS = (
         "N",
         ROTORS,
         "`plant.mass_scale`, `compliance.thrust_fraction`, `vehicle.quadrotors`, `disturbance.force`, `pushes`",
-    ),
-    FlightCheck(
-        "supervised lift",
-        "weight that the pilot assumes",
-        "`supervision.checks.thrust_fraction` of the thrust",
-        "N",
-        '`supervision.model = "on"`',
-        "`supervision.checks.thrust_fraction`",
     ),
     FlightCheck(
         "tilt",
@@ -185,36 +176,32 @@ def flight_checks(m: Mission) -> tuple[CheckResult, ...]:
     compliant_yaw = by_hand is not None and by_hand.yaw.model == "compliant"
     each = loads_of(m.disturbance, wind, m.pushes, end, yielding_yaw=compliant_yaw)
     usable, longest = (None, end) if by_hand is None else (by_hand.thrust_fraction, by_hand.following.time)
-    lifting = m.supervision.checks.thrust_fraction if m.supervision.model == "on" else None
     promised = (promise := promise_of(m.promise, pilot.guidance)).rms_promised(pilot.guidance)
     lands = m.ground.model == "none" and m.phases.land_start is not None and m.phases.land_start < end
     offsets = (promised, promised, min(promised, m.outcome.landed_height) if lands else promised)
     windy = wind.blows and pilot.push != "truth"  # wind on the payload counts as a push
     joined = windy or m.person.model != "none" or any(change.key.startswith("admittance") for change in m.changes)
+    unobserved, over_floor = m.observer.model == "none", m.ground.model == "floor"
     loads = Loads(each, promise.distance, promise.tilt, promise.heading, longest, hover.response_time)
-    checks: dict[str, Iterator[CheckResult]] = {  # each is computed on demand
-        "authority checks": authority_checks(hover, loads, usable, tilt_limit_of(controller), lifting),
-        "start checks": start_checks(m.initial, hover, controller, step, running=m.phases.rotors == "always"),
-        "stiffness checks": itertools.chain(
-            gain_checks(controller),
-            offset_checks(controller, hover, step, wind, m.disturbance, offsets) if m.observer.model == "none" else (),
-        ),
-        "loop checks": loop_checks(m.control_loop),
-        "sensing checks": sensing_checks(m.sensors, pilot, m.estimator, schedule, wind),
-        "schedule checks": itertools.chain(
-            schedule_checks.lift_checks(schedule, m.outcome.lifted_height),
-            schedule_checks.haste_checks(schedule, hover),
-            schedule_checks.push_time_checks(schedule, m.estimator, pilot.push),
-            schedule_checks.descent_checks(schedule) if m.ground.model == "floor" else (),
-            schedule_checks.landing_checks(schedule),
-            way_checks(m.person, m.corridor, m.initial, m.phases, schedule.landing_duration, end),
-        ),
-        "push checks": push_checks(() if joined else m.pushes, m.admittance.threshold, compliant_yaw=compliant_yaw),
-        **{f"{part.name} checks": iter(facts.ask(part, part.checks)) for part in facts.acting()},
-        "point checks": point_checks(m.pushes, hover.vehicle),
-        "passage checks": passage_checks(m.person, m.corridor, m.all_walls, m.initial, hover.vehicle),
-    }
-    return tuple(result for part, results in checks.items() for result in _computable(part, results))
+    checks: list[tuple[str, Iterator[CheckResult]]] = [  # each is computed on demand
+        ("authority", authority_checks(hover, loads, usable, tilt_limit_of(controller))),
+        ("start", start_checks(m.initial, hover, controller, step, running=m.phases.rotors == "always")),
+        ("stiffness", gain_checks(controller)),
+        *[("stiffness", offset_checks(controller, hover, step, wind, m.disturbance, offsets))] * unobserved,
+        ("loop", loop_checks(m.control_loop)),
+        ("sensing", sensing_checks(m.sensors, pilot, m.estimator, schedule, wind)),
+        ("schedule", schedule_checks.lift_checks(schedule, m.outcome.lifted_height)),
+        ("schedule", schedule_checks.haste_checks(schedule, hover)),
+        ("schedule", schedule_checks.push_time_checks(schedule, m.estimator, pilot.push)),
+        *[("schedule", schedule_checks.descent_checks(schedule))] * over_floor,
+        ("schedule", schedule_checks.landing_checks(schedule)),
+        ("schedule", way_checks(m.person, m.corridor, m.initial, m.phases, schedule.landing_duration, end)),
+        ("push", push_checks(() if joined else m.pushes, m.admittance.threshold, compliant_yaw=compliant_yaw)),
+        *((part.name, iter(facts.ask(part, part.checks))) for part in PARTS if part.checks and facts.has(part)),
+        ("point", point_checks(m.pushes, hover.vehicle)),
+        ("passage", passage_checks(m.person, m.corridor, m.all_walls, m.initial, hover.vehicle)),
+    ]
+    return tuple(dict.fromkeys(result for part, results in checks for result in _computable(f"{part} checks", results)))
 
 
 def _computable(part: str, results: Iterator[CheckResult]) -> Iterator[CheckResult]:

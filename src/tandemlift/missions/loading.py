@@ -24,7 +24,7 @@ from tandemlift.missions.changes import (
     without_old_shape,
 )
 from tandemlift.missions.checking import Layer, as_checked, check
-from tandemlift.missions.keys.places import without_entries
+from tandemlift.missions.keys.acting import without_entries
 from tandemlift.missions.mission import Mission
 from tandemlift.missions.recording import unpacked_recording
 from tandemlift.parts.controllers import CONTROLLERS, Controller

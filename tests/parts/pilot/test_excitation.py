@@ -44,7 +44,7 @@ def plain(axis, t):
 
 
 def test_the_wrench_gains_the_sum_of_its_lines_in_flight_alone():
-    k, _ = start_excitation(TABLE)
+    k = start_excitation(TABLE)
     for t in np.linspace(0.0, 14.0, 113).tolist():
         u = excited(k, U, 1.0, t)
         added = np.array([u.thrust - U.thrust, *(u.moment - U.moment)])
@@ -53,7 +53,7 @@ def test_the_wrench_gains_the_sum_of_its_lines_in_flight_alone():
 
 
 def test_the_reference_is_given_the_velocity_of_its_lines_and_comes_to_rest_where_it_began():
-    (k, _), h = start_excitation(TABLE), 1e-3
+    k, h = start_excitation(TABLE), 1e-3
     times = np.arange(0.0, 14.0, h)
     given = [excited_lead(k, Absent(), t) for t in (times + 0.5 * h).tolist()]
     travelled = np.cumsum([list(lead.velocity) for lead in given], axis=0) * h
@@ -64,7 +64,7 @@ def test_the_reference_is_given_the_velocity_of_its_lines_and_comes_to_rest_wher
 
 
 def test_outside_its_window_the_reference_has_a_callers_velocity():
-    (k, _), callers = start_excitation(TABLE), ReferenceVelocity(Vec3(1.0, 2.0, 3.0), 1.0)
+    k, callers = start_excitation(TABLE), ReferenceVelocity(Vec3(1.0, 2.0, 3.0), 1.0)
     assert excited_lead(k, callers, 2.0) == callers
     assert excited_lead(k, callers, 7.0) == excited_lead(k, Absent(), 7.0)
 
@@ -74,7 +74,7 @@ def test_an_absent_excitation_changes_nothing():
     assert k == Absent()
     assert excited(k, U, 1.0, 5.0) is U
     assert excited_lead(k, Absent(), 5.0) == Absent()
-    wrench_only, _ = start_excitation(TABLE.model_copy(update={"lines": (TABLE.lines[1],)}))
+    wrench_only = start_excitation(TABLE.model_copy(update={"lines": (TABLE.lines[1],)}))
     assert excited_lead(wrench_only, Absent(), 5.0) == Absent()
 
 

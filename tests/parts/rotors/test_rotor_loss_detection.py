@@ -21,9 +21,9 @@ from tandemlift.parts.rotors.detection import (
     followed,
     left_of,
     residual,
+    start_detection,
     with_trials,
 )
-from tandemlift.parts.rotors.detection_table import start_detection
 
 MISSION = load_mission("iris", {"detection.model": "residual", "actuators.start": "hover"})
 VEHICLE = Vehicle.from_settings(MISSION.vehicle)

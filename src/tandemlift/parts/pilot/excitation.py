@@ -173,13 +173,13 @@ def excited_lead(k: Excitation, lead: ReferenceVelocity | Absent, t: Number) -> 
     return sines_velocity(k.motion, k, lead, t)
 
 
-def start_excitation(table: ExcitationTable) -> tuple[Excitation, Absent]:
-    """The excitation, which has no memory."""
+def start_excitation(table: ExcitationTable) -> Excitation:
+    """The excitation."""
     # the fall ends a ramp before the end, in which the reference comes to rest
     end, along = table.begin + table.duration, {axis: sines_from(table.lines, axis) for axis in AXES}
     moves = any(not isinstance(along[axis], Absent) for axis in MOTION)
     motion = ReferenceSines(*[along[axis] for axis in MOTION]) if moves else Absent()
-    excitation = Excitation(
+    return Excitation(
         begin=table.begin,
         end=end,
         ramp_rate=1.0 / table.ramp,
@@ -190,7 +190,6 @@ def start_excitation(table: ExcitationTable) -> tuple[Excitation, Absent]:
         yaw=along["yaw"],
         motion=motion,
     )
-    return excitation, Absent()
 
 
 def sines_from(lines: Sequence[LineTable], axis: str) -> Sines | Absent:
@@ -283,11 +282,8 @@ def over_time(table: ExcitationTable, axis: str, integrals: int = 0) -> Array:
 
 
 EXCITATION = Part(
-    name="excitation",
-    within="pilot",
-    key="excitation",
-    acts=ExcitationTable.acts,
-    start=start_excitation,
+    *("excitation", "pilot", "excitation", ExcitationTable.acts, start_excitation),
+    remembers=False,
     refusals=time_checks,
     checks=excitation_checks,
     rows=(
@@ -300,6 +296,5 @@ EXCITATION = Part(
             "`excitation.lines`, `excitation.room`",
         ),
     ),
-    calm=False,
     begins=lambda table: table.begin,
 )
