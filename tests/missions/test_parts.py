@@ -40,6 +40,7 @@ def test_a_part_asks_for_what_a_mission_says_and_for_nothing_else(part):
     after = filter(None, (part.findings, part.metrics))
     assert set().union(*map(names_of, before)) <= known | ASSEMBLED
     assert set().union(*map(names_of, after)) <= known | FLOWN
+    assert part.within in ("pilot", "guidance") or not (part.findings or part.metrics), "of_parts does not look there"
     for make in MADE.values():
         assert set(names_of(make)) <= known
 

@@ -37,9 +37,9 @@ class Part(NamedTuple):
     "estimators" or the "body"; the `key` of its table; where it `acts` (`core.keys.Table`), else it is `Absent`.
     `start` gives (parameters, memory) before the first sample, or parameters alone if it does not remember. `refusals`
     reject a mission, `checks` tell what may fly badly, `rows` say so in the reference. `channels`: their type;
-    `logged`: the group of a sample that has those of `channels_of`. `findings` and `metrics` of a flight may ask for
-    its last parameters `k` and memory `m`. `calm`: whether a vehicle with it rests in hover; if it `begins` [s], until
-    then.
+    `logged`: the group of a sample that has those of `channels_of`. `findings` and `metrics` of a flight, for parts of
+    pilot and guidance, may ask for the last parameters `k` and memory `m`. `calm`: whether a vehicle with it rests in
+    hover; if it `begins` [s], until then.
     """
 
     name: str

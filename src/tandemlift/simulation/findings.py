@@ -209,10 +209,10 @@ def of_parts(p: FlightPlan, flight_state: FlightState, name: str) -> Iterator[An
     """What the function of that name of each part of a flight says of its last state."""
     pilot, memory = p.model.pilot, flight_state.memory
     held = {"pilot": (pilot, memory), "guidance": (pilot.guidance, memory.guidance)}
-    for part in PARTS:
-        k, m = (getattr(of, part.name, Absent()) for of in held.get(part.within, ()) or (None, None))
-        if (function := getattr(part, name)) and not isinstance(k, Absent):
-            yield Facts(p.mission).ask(part, function, k=k, m=m)
+    for part in (part for part in PARTS if getattr(part, name)):
+        k, m = (getattr(of, part.name, Absent()) for of in held[part.within])
+        if not isinstance(k, Absent):
+            yield Facts(p.mission).ask(part, getattr(part, name), k=k, m=m)
 
 
 def _not_landed(p: FlightPlan, flight_state: FlightState, outcome: str, end: float) -> Iterator[Finding]:
