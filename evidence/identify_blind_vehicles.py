@@ -27,10 +27,10 @@ from typing import Any
 import numpy as np
 
 import tandemlift as tl
-from tandemlift.analysis.identification.clocks import GROUPS, synchronised
 from tandemlift.analysis.identification.identification import Identification
 from tandemlift.analysis.identification.identify import identify, reference_rows
-from tandemlift.analysis.identification.log import PUSH, Log, log_of
+from tandemlift.analysis.logs.clocks import GROUPS, synchronised
+from tandemlift.analysis.logs.log import PUSH, Log, log_of
 from tandemlift.core.errors import without_flight_warnings
 from tandemlift.missions import Mission, load_mission, tables_of
 

@@ -10,7 +10,7 @@ from tandemlift.core.faults import ALARM_TEXTS, CHECKS, FAULTS, REACTION_MEANING
 from tandemlift.flight.channels import CHANNELS
 from tandemlift.parts.guidance.fault_detection import ActiveFaults, strongest_reaction
 from tandemlift.parts.guidance.preflight_checks import first_failed
-from tandemlift.parts.guidance.supervision_table import SupervisionTable
+from tandemlift.parts.guidance.supervision import SupervisionTable
 
 NONE = ActiveFaults(*[0.0] * len(FAULTS))
 

@@ -10,17 +10,18 @@ from tandemlift.core.types import leaves
 from tandemlift.core.vector import Absent
 from tandemlift.flight.channels import CHANNELS, DERIVED, STAMP
 from tandemlift.flight.channels import GROUPS as CHANNEL_GROUPS
+from tandemlift.parts.estimation.contact_detection import ContactEstimateChannels
+from tandemlift.parts.estimation.disturbance_observer import DisturbanceChannels
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceChannels
 from tandemlift.parts.guidance.policy import PolicyChannels
 from tandemlift.parts.guidance.supervision import SupervisionChannels
-from tandemlift.simulation.loop.estimate_channels import ContactEstimateChannels, EstimatedChannels, MeasuredChannels
+from tandemlift.parts.mechanics.wind import WindChannels
+from tandemlift.parts.rotor_loss.detection import DetectionChannels
+from tandemlift.simulation.loop.estimate_channels import EstimatedChannels, MeasuredChannels
 from tandemlift.simulation.loop.log_sample import (
     ActuatorChannels,
     ContactChannels,
-    DetectionChannels,
-    DisturbanceChannels,
     Sample,
-    WindChannels,
 )
 from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.plan import FlightPlan
@@ -164,7 +165,6 @@ print("followed")
 def test_a_channel_is_added_by_its_record_and_the_law_that_logs_it(tmp_path):
     package = EditedPackage(tmp_path)
     package.insert("flight/channels.py", 'Channel("N", "world", "force of the air on all parts together"),', RECORD)
-    package.insert("simulation/loop/log_sample.py", "    wind_force: Vec3", FIELD)
-    package.insert("simulation/loop/log_sample.py", "wind_velocity=velocity,", VALUE)
-    package.insert("simulation/loop/log_sample.py", "from tandemlift.core.algebra import clip", ", sqrt")
+    package.insert("parts/mechanics/wind.py", "    wind_force: Vec3", FIELD)
+    package.insert("parts/mechanics/wind.py", "wind_velocity=velocity,", VALUE)
     assert package.run(PROGRAM) == "followed\n"

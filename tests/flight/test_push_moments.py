@@ -8,7 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.analysis.identification.log import Log, log_of
+from tandemlift.analysis.logs.log import Log, log_of
 
 pytestmark = pytest.mark.filterwarnings("ignore::tandemlift.FlightWarning")
 OLD = "moment of the push about the payload's centre of mass"  # of version 1.0, in the header of a record

@@ -5,7 +5,7 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.analysis.identification.identify import reference_rows
-from tandemlift.analysis.identification.log import PUSH, Log, log_of
+from tandemlift.analysis.logs.log import PUSH, Log, log_of
 from tandemlift.missions import load_mission, tables_of
 
 pytestmark = [pytest.mark.gazebo, pytest.mark.filterwarnings("ignore::tandemlift.FlightWarning")]

@@ -257,6 +257,12 @@ def test_only_rotors_that_fail_within_the_flight_count_against_what_they_lift():
     assert "its rotors lift" not in warnings_of("iris", all_fail(1e6))
 
 
+def test_rotors_that_are_all_lost_lift_nothing_to_the_last_digit():
+    told = warnings_of("iris", all_fail(5.0))
+    assert "its rotors lift 0 N" in told
+    assert "of the rotors' 0 N is 0 N: the vehicle cannot fly" in told
+
+
 def test_a_push_that_is_called_ignored_is_ignored():
     ignored = push([0.29, 0.0, 0.0]) | {"mission.duration": 18.0, "phases.land_start": 60.0}
     flight = tl.fly(load_mission("iris", ignored))

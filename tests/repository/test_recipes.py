@@ -144,7 +144,6 @@ assert error_of_height([{"name": "rangefinder"}]) < 0.02
 
 FINDING: Edits = {
     "core/findings.py": [
-        ('    "lift-refused",\n]', '    "lift-refused",\n    "ends-high",\n]'),
         (
             "KINDS = (\n",
             'KINDS = (\n    FindingKind("ends-high", "the vehicle ended above 1 m", "lower `phases.height`"),\n',
@@ -280,6 +279,128 @@ assert np.ptp(rigid["position"][:, 2]) > 0.9
 np.testing.assert_allclose(point["position"], rigid["position"], atol=1e-3)
 """
 
+TRIM = '''"""A steady force along body z, on top of the commanded wrench."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, Literal, NamedTuple
+
+from tandemlift.core.errors import CheckResult, judged, refused
+from tandemlift.core.findings import Finding, finding
+from tandemlift.core.keys import Table, key
+from tandemlift.core.law import law
+from tandemlift.core.part import FlightCheck, Part, channels_of
+from tandemlift.core.types import Number
+from tandemlift.parts.mechanics.rigid_body import Wrench
+from tandemlift.parts.rotors.hover import HoverFacts
+
+
+class TrimTable(Table, acts=\'trim.model = "steady"\'):
+    """`[trim]`: a steady force along body z."""
+
+    model: Literal["none", "steady"] = key("none", None, "the trim", choices={"none": "none", "steady": "a force"})
+    force: float = key(0.0, "N", "the force", source="none")
+
+
+class Trim(NamedTuple):
+    """The force [N]."""
+
+    force: Number
+
+
+class TrimChannels(NamedTuple):
+    """The force [N]."""
+
+    trim_force: Number
+
+
+@law(absent="u")
+def trimmed(k: Trim, u: Wrench) -> Wrench:
+    """A wrench with the force."""
+    return u._replace(thrust=u.thrust + k.force)
+
+
+@channels_of.register(Trim)
+def _channels(k: Trim, memory: Any, decision: Any) -> TrimChannels:
+    return TrimChannels(k.force)
+
+
+def start_trim(table: TrimTable) -> Trim:
+    return Trim(table.force)
+
+
+def trim_refusals(table: TrimTable, guidance: str) -> Iterator[CheckResult]:
+    if table.model != "none" and guidance == "interactive":
+        yield refused(\'trim.model = "steady": must be "none" where pilot.guidance is "interactive"\')
+
+
+def trim_checks(table: TrimTable, hover: HoverFacts) -> Iterator[CheckResult]:
+    yield judged("trim", abs(table.force), 0.1 * hover.weight, "N", "the trim is large: lower trim.force")
+
+
+def trim_findings(k: Trim, table: TrimTable, end: float) -> Iterator[Finding]:
+    if abs(k.force) > 0.4:
+        yield finding("trimmed", f"a trim of {k.force:g} N", time=0.0, duration=end, value=k.force, unit="N")
+
+
+TRIM = Part(
+    *("trim", "pilot", "trim", TrimTable.acts, start_trim),
+    remembers=False,
+    refusals=trim_refusals,
+    checks=trim_checks,
+    rows=(FlightCheck("trim", "size of the force", "a tenth of the weight", "N", "", "`trim.force`"),),
+    channels=TrimChannels,
+    logged="trim",
+    findings=trim_findings,
+)
+'''
+LED, TABLE = "    led, lead = lead_step(", "    excitation: ExcitationTable = ExcitationTable()\n"
+IMPORT = "from tandemlift.parts.pilot.rotor_lead import "
+LAST_GROUP = "    ChannelGroup(\n        'Stamps of readings"
+TRIM_CHANNEL = 'ChannelGroup("With a trim", {"trim_force": Channel("N", "body z", "force of the trim", 1)}),\n'
+PART: Edits = {
+    "parts/pilot/trim.py": [("", TRIM)],
+    "parts/pilot/pilot.py": [
+        (IMPORT, "from tandemlift.parts.pilot.trim import Trim, trimmed\n" + IMPORT),
+        ("    excitation: Excitation | Absent\n", "    excitation: Excitation | Absent\n    trim: Trim | Absent\n"),
+        (LED, "    command = command._replace(wrench=trimmed(p.trim, command.wrench))\n" + LED),
+    ],
+    "missions/mission.py": [
+        (IMPORT, "from tandemlift.parts.pilot.trim import TRIM, TrimTable\n" + IMPORT),
+        (TABLE, TABLE + "    trim: TrimTable = TrimTable()\n"),
+        ("WIND, PERSON),\n", "WIND, PERSON, TRIM),\n"),
+    ],
+    "flight/channels.py": [(LAST_GROUP, f"    {TRIM_CHANNEL}{LAST_GROUP}")],
+    "core/findings.py": [
+        ("KINDS = (\n", 'KINDS = (\n    FindingKind("trimmed", "the vehicle had a trim", "lower `trim.force`"),\n'),
+    ],
+}
+PART_FLIES = """
+import warnings
+import numpy as np
+import tandemlift as tl
+from reference_tables.checks import checks_at_load
+from tandemlift.missions.flight_checks import flight_checks
+
+trim = {"mission.duration": 3.0, "trim.model": "steady", "trim.force": 0.5}
+plain, flown = (tl.fly(tl.load_mission("hover", keys)) for keys in ({"mission.duration": 3.0}, trim))
+before, after = (f.metrics()["command_at_start"][0] for f in (plain, flown))
+np.testing.assert_allclose(after - before, 0.5, rtol=1e-9)
+assert (flown["trim_force"] == 0.5).all() and flown.info("trim_force").unit == "N"
+assert "trim_force" not in plain.channels
+assert [f.kind for f in flown.findings] == [*(f.kind for f in plain.findings), "trimmed"]
+assert any(r.check == "trim" and r.verdict == "fails" for r in flight_checks(
+    tl.load_mission("hover", {**trim, "trim.force": 20.0})))
+assert "| `trim` | size of the force" in checks_at_load()
+try:
+    tl.load_mission("iris", trim)
+except tl.InputError as error:
+    assert "trim.model" in str(error), error
+else:
+    raise AssertionError("a trim with interactive guidance")
+"""
+
 RECIPES = {
     "a key touches the file of its table, and of its law where that stands apart": (KEY, KEY_HAS_ITS_EFFECT),
     "a variant of a law touches its law, its key and where it is chosen": (LAW, LAW_FLIES),
@@ -288,6 +409,7 @@ RECIPES = {
     "a metric touches two files": (METRIC, METRIC_IS_FORMED),
     "the controller of the guide becomes one of the package by an import": (CONTROLLER, CONTROLLER_FLIES),
     "an engine is a class and an entry": (ENGINE, ENGINE_FLIES),
+    "an optional part with checks, channels and a finding touches five files": (PART, PART_FLIES),
 }
 RUN_ALL = """
 import json, traceback

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from tandemlift.analysis.identification.log import Stream
 from tandemlift.analysis.identification.windows import FlightWindows, Samples
+from tandemlift.analysis.logs.log import Stream
 from tandemlift.missions import load_mission
 
 

@@ -9,29 +9,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import Any, Literal, NamedTuple, get_args
-
-FindingName = Literal[
-    "touched",
-    "oscillating",
-    "saturated",
-    "no-response-to-push",
-    "response-without-push",
-    "push-refuted",
-    "off-track",
-    "out-of-reach",
-    "cannot-follow",
-    "not-landed",
-    "landed-by-fault",
-    "lift-refused",
-]
-FINDING_NAMES: tuple[FindingName, ...] = get_args(FindingName)
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 
 class FindingKind(NamedTuple):
     """A kind of finding: its name, meaning and remedy, and the keys of its thresholds."""
 
-    name: FindingName
+    name: str
     meaning: str
     remedy: str
     keys: tuple[str, ...] = ()
@@ -121,6 +105,11 @@ KINDS = (
     ),
 )
 KIND_OF = {kind.name: kind for kind in KINDS}
+FINDING_NAMES = tuple(KIND_OF)
+if TYPE_CHECKING:
+    FindingName = str
+else:
+    FindingName = Literal[FINDING_NAMES]
 
 
 class Finding(NamedTuple):
@@ -176,7 +165,7 @@ def finding(
     """A finding with plain numbers; one that is not finite, of a flight that diverged, is left out."""
     at = None if place is None else tuple(map(float, place))
     return Finding(
-        kind=kind,
+        kind=KIND_OF[kind].name,
         time=round(float(time), 9),
         duration=round(float(duration), 9),
         place=at if at and all(map(math.isfinite, at)) else None,  # type: ignore[arg-type]

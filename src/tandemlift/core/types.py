@@ -51,6 +51,7 @@ if TYPE_CHECKING:
 else:
     NumberSet = tuple
 
+V = TypeVar("V")
 N = TypeVar("N", Number, NumberSet)
 """One number for all, or a set of them."""
 
@@ -78,6 +79,13 @@ def number(value: Any) -> Number:
     if type(value) is float:  # by far most are
         return value
     return cast(Number, value) if is_symbol(value) else float(value)
+
+
+def filled(kind: Callable[..., V], *tables: Any, **others: Any) -> V:
+    """A value of a NamedTuple: the `others`, and else what the first of some tables holds under the field's name."""
+    missing = [name for name in kind._fields if name not in others]  # type: ignore[attr-defined]
+    found = {name: next(getattr(table, name) for table in tables if hasattr(table, name)) for name in missing}
+    return kind(**found, **others)
 
 
 def is_value(x: Any) -> bool:

@@ -8,9 +8,7 @@ A function that needs a part of a mission takes that table, or `Mission.hover`: 
 
 from tandemlift.core.plugs import load_plugin
 from tandemlift.missions.acting import IdleKey, idle_keys, sentences
-from tandemlift.missions.changes import check_double as check_double
 from tandemlift.missions.changes import format_toml, merge, tables_of
-from tandemlift.missions.changes import with_precision as with_precision
 from tandemlift.missions.checking import changed, check
 from tandemlift.missions.loading import (
     DATA,
@@ -30,6 +28,8 @@ from tandemlift.missions.mission import (
     VehicleTable,
     check_keys,
 )
+from tandemlift.missions.mission import check_double as check_double
+from tandemlift.missions.mission import with_precision as with_precision
 
 __all__ = [
     "DATA",

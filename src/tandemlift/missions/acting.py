@@ -1,4 +1,4 @@
-"""Keys that cannot act in a mission, such as `wind.velocity` without a wind.
+"""Keys that cannot act in a mission, such as `wind.velocity` without a wind; places of keys in nested tables.
 
 Tables declare the conditions without which they, or keys of theirs, do not act (`core.keys.Table`); those of the tables
 above a key hold for it, too.
@@ -7,14 +7,15 @@ above a key hold for it, too.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from functools import reduce
+from functools import cache, reduce
 from typing import Any, NamedTuple
 
 from pydantic import BaseModel
 
 from tandemlift.core.errors import dotted, written
-from tandemlift.missions.places import Place, places_in
 
+Place = tuple[str | int, ...]
+Tables = dict[str, Any]
 SHOWN = 4  # keys that a sentence names
 ALSO = "also "  # before a condition by which a key acts whatever its tables need
 
@@ -56,13 +57,21 @@ def _part(value: Any, part: str | int) -> Any:
 
 def holds(mission: BaseModel, condition: str) -> bool:
     """Whether a condition such as 'wind.model = "air"' holds: its key acts, and has one of the values."""
-    key = relation = ""
-    for part in condition.split(" or "):
-        key, relation, wanted = part.split(" ", 2) if " " in part else (key, relation, part)
-        place = next(places_in({key: None}))
+    for place, relation, wanted in _alternatives(condition):
         if _has(reduce(_part, place, mission), relation, wanted) and unmet(mission, place) is None:
             return True
     return False
+
+
+@cache
+def _alternatives(condition: str) -> tuple[tuple[Place, str, str], ...]:
+    """The place of the key, the relation and the value of each part of a condition that is joined by " or "."""
+    key = relation = ""
+    found = list[tuple[Place, str, str]]()
+    for part in condition.split(" or "):
+        key, relation, wanted = part.split(" ", 2) if " " in part else (key, relation, part)
+        found.append((next(places_in({key: None})), relation, wanted))
+    return tuple(found)
 
 
 def _has(value: Any, relation: str, wanted: str) -> bool:
@@ -118,3 +127,42 @@ def _sentence(mission: BaseModel, condition: str, names: list[str]) -> str:
     more = f" and {len(names) - SHOWN} more keys" if len(names) > SHOWN else ""
     verb, pronoun = ("has", "it acts") if len(names) == 1 else ("have", "they act")
     return f"{', '.join(names[:SHOWN])}{more} {verb} no effect: {decisive} {is_now}; {pronoun} where {condition}"
+
+
+def places_in(value: object, above: Place = ()) -> Iterator[Place]:
+    """The places of all keys that nested tables give."""
+    if isinstance(value, Mapping):
+        for name, part in value.items():
+            parts = above if name == "" else (*above, *(int(p) if p.isdecimal() else p for p in name.split(".")))
+            yield from places_in(part, parts)
+    elif isinstance(value, (list, tuple)) and value and all(isinstance(entry, Mapping) for entry in value):
+        for i, entry in enumerate(value):
+            yield from places_in(entry, (*above, i))
+    else:
+        yield above
+
+
+def without_entries(tables: Mapping[str, Any], above: str = "") -> tuple[Tables, list[tuple[str, Any]]]:
+    """Tables without those whose keys are numbers, and the values of these by dotted key.
+
+    So a file may say `vehicle.quadrotors.0.position = …` of a list in the mission that it extends.
+    """
+    kept, entries = Tables(), list[tuple[str, Any]]()
+    for name, value in tables.items():
+        key = f"{above}{name}"
+        if not isinstance(value, dict):
+            kept[name] = value
+        elif any(part.isdecimal() for part in value):
+            entries += _leaves(value, key)
+        else:
+            kept[name], inner = without_entries(value, f"{key}.")
+            entries += inner
+    return kept, entries
+
+
+def _leaves(value: object, key: str) -> Iterator[tuple[str, Any]]:
+    if isinstance(value, dict) and value:
+        for name, part in value.items():
+            yield from _leaves(part, f"{key}.{name}")
+    else:
+        yield key, value

@@ -15,15 +15,13 @@ from pydantic.fields import FieldInfo
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.files import parts_of
 from tandemlift.core.keys import PerAxis
+from tandemlift.missions.acting import Place as Place
+from tandemlift.missions.acting import Tables as Tables
+from tandemlift.missions.acting import places_in as places_in
 from tandemlift.missions.key_descriptions import Model, table_in
 from tandemlift.missions.mission import Mission
-from tandemlift.missions.places import Place as Place
-from tandemlift.missions.places import Tables as Tables
-from tandemlift.missions.places import places_in as places_in
 from tandemlift.parts.controllers import CONTROLLERS
 from tandemlift.parts.guidance.admittance import with_feel
-
-PRECISIONS = "double", "single"
 
 
 def _with(at: Any, parts: list[str], value: object, key: str) -> Any:
@@ -150,26 +148,3 @@ def format_toml(tables: Mapping[str, Any]) -> str:
     """Nested tables as TOML without loss, with lists of numbers on one line."""
     text = re.sub(r"\[\n\s*([-+.\w\s,]*),\n\s*\]", lambda m: f"[{' '.join(m[1].split())}]", tomli_w.dumps(tables))
     return re.sub(r"\[\n\s*(\[[^\[\]\n]*\]),\n\s*\]", r"[\1]", text)  # a list of one such list
-
-
-def check_double(mission: Mission, reason: str) -> None:
-    """Refuse single precision for a reason.
-
-    Raises:
-        InputError: the mission asks for it.
-    """
-    if mission.mission.precision == "single":
-        raise InputError(f"mission.precision = 'single': must be 'double' here, because {reason}")
-
-
-def with_precision(mission: Mission, precision: str | None) -> Mission:
-    """A mission in the precision that a caller asks for; in its own if None.
-
-    Raises:
-        InputError: there is no such precision.
-    """
-    if precision is None or precision == mission.mission.precision:
-        return mission
-    if precision not in PRECISIONS:
-        raise InputError(f"precision = {shown(precision)}: must be {' or '.join(map(repr, PRECISIONS))}")
-    return mission.model_copy(update={"mission": mission.mission.model_copy(update={"precision": precision})})

@@ -12,8 +12,7 @@ from tandemlift.core.errors import FlightWarning, InputError, accepted, shown, s
 from tandemlift.core.plugs import GIVEN, Plugin, has, listed, plugin_of
 from tandemlift.missions.acting import idle_as_said
 from tandemlift.missions.changes import MISSING, Place, Tables, changed_tables, tables_of, value_at
-from tandemlift.missions.check_results import worst_failures
-from tandemlift.missions.checks import mission_checks, refusals
+from tandemlift.missions.checks import mission_checks, refusals, worst_failures
 from tandemlift.missions.mission import Mission
 from tandemlift.missions.refusals import Problem, problems_in
 from tandemlift.parts.controllers import CONTROLLERS, ControllerTable

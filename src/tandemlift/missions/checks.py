@@ -1,41 +1,34 @@
-"""All checks of a mission in one list: first those that reject it, then those that warn of it.
+"""All checks of a mission in one list: first those that reject it, then those that warn of it; their report.
 
 Loading, `check` and the live page read this list. Each part yields the results that concern it alone.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
-from tandemlift.core.errors import CheckResult, InputError, refused
+from tandemlift.core.errors import CLOSE, FAILS, OK, REFUSED, SETTINGS, CheckResult, InputError, refused
 from tandemlift.core.phases import HARD
 from tandemlift.missions import outcomes
-from tandemlift.missions.check_results import check_lines as check_lines
+from tandemlift.missions.facts import Facts
 from tandemlift.missions.flight_checks import flight_checks
-from tandemlift.missions.mission import Mission, MissionTable
+from tandemlift.missions.mission import PARTS, Mission, MissionTable
 from tandemlift.missions.recording import read_recording
 from tandemlift.parts.contact import standing
 from tandemlift.parts.contact.corridor import wall_checks, wall_warnings
 from tandemlift.parts.estimation import estimator_table as estimator
-from tandemlift.parts.estimation.contact_table import contact_checks
-from tandemlift.parts.estimation.disturbance_observer import observer_checks
 from tandemlift.parts.flight_checks import authority
-from tandemlift.parts.flight_checks.schedule_checks import phase_checks, phase_warnings, wind_warnings
-from tandemlift.parts.guidance import supervision_table as supervision
+from tandemlift.parts.flight_checks.schedule_checks import phase_checks, phase_warnings
 from tandemlift.parts.guidance.admittance import admittance_checks, gate_checks
 from tandemlift.parts.guidance.guidance import reading_checks
-from tandemlift.parts.guidance.policy import policy_checks
 from tandemlift.parts.guidance.requests import request_checks
-from tandemlift.parts.guidance.yaw_compliance import yaw_checks
-from tandemlift.parts.mechanics.push_checks import on_vehicle_checks
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.mechanics.vehicle_checks import vehicle_checks
+from tandemlift.parts.mechanics.vehicle_checks import on_vehicle_checks, vehicle_checks
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
-from tandemlift.parts.person.person_table import PersonTable, person_checks, person_warnings
-from tandemlift.parts.pilot.excitation import time_checks as excitation_time_checks
-from tandemlift.parts.rotor_loss.detection_table import detection_checks
+from tandemlift.parts.person.person_table import PersonTable
 from tandemlift.parts.rotors.rotor_faults import fault_checks, fault_warnings
 from tandemlift.parts.rotors.rotors import ActuatorsTable
 from tandemlift.parts.sensors import sensor_checks as sensors
@@ -49,7 +42,7 @@ GRIP = slice(1, 4)  # of a recorded hand
 def refusals(m: Mission) -> Iterator[CheckResult]:
     """Refusals of missions that no pilot can fly, in the order of their search; after one, others may not compute."""
     guidance, step, rotors, s = m.pilot.guidance, m.mission.step, m.actuators.model, m.sensors
-    count, walls = len(m.vehicle.quadrotors), bool(m.all_walls)
+    facts, count, walls = Facts(m), len(m.vehicle.quadrotors), bool(m.all_walls)
     yield from time_checks(m.mission)
     yield from log_checks(m.mission, m.sample_size)
     yield from phase_checks(m.phases)
@@ -64,29 +57,20 @@ def refusals(m: Mission) -> Iterator[CheckResult]:
     yield from estimator.tare_checks(m.estimator, s.interval, step, uses_mass=m.compliance.mass_feedforward)
     yield from estimator.wrench_checks(m.estimator, s, rotors, m.allocation.method, m.contact.model, m.hover.mass, step)
     yield from estimator.compensation_checks(m.estimator.wind_compensation, m.vehicle.quadrotors)
-    yield from observer_checks(m.observer, m.allocation.method)
-    yield from detection_checks(m.detection, m.allocation.method)
     yield from standing.floor_checks(m.ground, rotors, m.phases, walls=walls)
     if m.ground.model != "none":
         stands = standing.standing_on(m.ground, m.vehicle, m.plant.mass_scale, step, m.initial)
         yield from standing.depth_checks(m.ground, m.initial, stands)
     yield from wall_checks(m.walls)
-    yield from supervision.supervision_checks(m.supervision, guidance)
     yield from request_checks(m.requests, guidance)
-    yield from excitation_time_checks(m.excitation, m.phases, step, m.mission.duration)
+    for part in PARTS:
+        yield from facts.ask(part, part.refusals) if part.refusals else ()
     yield from estimator.hover_tare_checks(m.estimator, guidance)
     yield from gate_checks(m.admittance, guidance)
-    yield from yaw_checks(m.compliance.yaw, m.hover.vehicle, guidance, step)
-    yield from policy_checks(m.compliance.policy, m.admittance.mass, m.admittance.damping, guidance, step)
-    yield from contact_checks(m.contact, guidance, s.model, m.pilot.push)
-    yield from supervision.limit_checks(m.supervision)
     yield from outcomes.fence_crash_checks(m.crash, m.supervision, m.initial, m.phases.height)
-    intervals = {"sensors.interval": s.interval, "sensors.motion.interval": s.motion.interval}
-    yield from supervision.watchdog_checks(m.supervision, intervals, step)
     yield from sensors.sensor_fault_checks(m.sensor_faults, s, count)
     for i, push in enumerate(m.pushes):
         yield from on_vehicle_checks(f"pushes.{i}.point", push.point, Vehicle.from_settings(m.vehicle))
-    yield from person_checks(m.person, m.corridor, m.vehicle.payload.box)
     yield from recording_checks(m.person, m.vehicle)
     yield from outcomes.crash_checks(m.crash, m.initial)
     yield from outcomes.promise_checks(m.promise, m.findings, m.crash, guidance)
@@ -125,9 +109,6 @@ def mission_checks(m: Mission) -> Iterator[CheckResult]:
         yield from standing.blow_warnings(p, m.initial, hover.mass, limit, stands)
         yield from standing.reference_warnings(p, end, stands)
         yield from wall_warnings(m.walls, m.corridor, m.initial, hover.vehicle)
-    yield from wind_warnings(m.wind)
-    tared = None if e.tare_start is None or m.pilot.push == "truth" else e.tare_start + e.tare_duration
-    yield from person_warnings(m.person, guidance, tared)
     yield from m.controller.checks(m.mission.step)
     yield from flight_checks(m)
 
@@ -171,3 +152,43 @@ def _delays(actuators: ActuatorsTable, sensors: SensorsTable, person: PersonTabl
         "person.delay": person.delay,
     }
     return delays | {f"sensors.additional.{i}.delay": s.delay for i, s in enumerate(sensors.additional)}
+
+
+WORST_FIRST = (REFUSED, FAILS, CLOSE, OK)
+HEAD = ("check", "of", "value", "limit", "unit", "margin", "verdict")  # of the table of checks
+
+
+def check_lines(results: Sequence[CheckResult]) -> Iterator[tuple[str, str]]:
+    """Verdict and text of each line of a report: a table with a row for each result, worst first; texts; counts."""
+    results = sorted(results, key=lambda result: WORST_FIRST.index(result.verdict))
+    rows = [HEAD, *map(_check_row, results)]
+    widths = [max(len(row[i]) for row in rows) for i in range(len(HEAD))]
+    for row, verdict in zip(rows, ["", *(result.verdict for result in results)], strict=True):
+        cells = enumerate(zip(row, widths, strict=True))
+        yield verdict, "  ".join(cell.rjust(w) if i in (2, 3, 5) else cell.ljust(w) for i, (cell, w) in cells).rstrip()
+    yield from ((result.verdict, f"{result.verdict}: {result.text}") for result in results if result.text)
+    counts = {verdict: sum(result.verdict == verdict for result in results) for verdict in (OK, CLOSE, FAILS)}
+    yield "", ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
+
+
+def _check_row(result: CheckResult) -> tuple[str, ...]:
+    is_advice = result.verdict == CLOSE and result.margin is not None and result.margin < 0.0
+    margin = "" if result.margin is None else "advice" if is_advice else f"{100.0 * result.margin:.0f} %"
+    value, limit = ("" if x is None else "none" if math.isinf(x) else f"{x:.3g}" for x in (result.value, result.limit))
+    return result.check, result.subject, value, limit, "" if result.unit == "1" else result.unit, margin, result.verdict
+
+
+def worst_failures(results: Iterable[CheckResult]) -> Iterator[CheckResult]:
+    """The worst failure of each check, and every failure of settings."""
+    failed: dict[str, list[CheckResult]] = {}
+    for result in results:
+        if result.verdict == FAILS:
+            failed.setdefault(result.text if result.check == SETTINGS else result.check, []).append(result)
+    yield from (max(many, key=_excess) for many in failed.values())
+
+
+def _excess(result: CheckResult) -> float:
+    """The excess of a result over its limit, as a fraction of the limit."""
+    if result.value is None or result.limit is None or result.limit <= 0.0:
+        return float("inf")
+    return result.value / result.limit

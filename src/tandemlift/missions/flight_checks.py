@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
-from typing import NamedTuple
 
 import numpy as np
 
 from tandemlift.core.errors import CLOSE, CheckResult, noted
-from tandemlift.missions.mission import Mission
+from tandemlift.core.part import FlightCheck
+from tandemlift.missions.facts import Facts
+from tandemlift.missions.mission import PARTS, Mission
 from tandemlift.missions.outcomes import promise_of
 from tandemlift.parts.controllers.interface import tilt_limit_of
 from tandemlift.parts.flight_checks import schedule_checks
@@ -18,21 +18,8 @@ from tandemlift.parts.flight_checks.controller_checks import gain_checks, offset
 from tandemlift.parts.flight_checks.hover_loads import Loads, WindOnParts, loads_of
 from tandemlift.parts.flight_checks.loop_checks import loop_checks
 from tandemlift.parts.flight_checks.sensing_checks import sensing_checks
-from tandemlift.parts.mechanics.push_checks import point_checks, push_checks
+from tandemlift.parts.mechanics.vehicle_checks import point_checks, push_checks
 from tandemlift.parts.person.passage import passage_checks, way_checks
-from tandemlift.parts.pilot.excitation import excitation_checks
-
-
-class FlightCheck(NamedTuple):
-    """A check: its name, value, limit and unit, the missions to which it applies, and the keys that change it."""
-
-    name: str
-    value: str
-    limit: str
-    unit: str
-    applies: str
-    keys: str
-
 
 ROTORS = '`actuators.model = "rotors"`'
 CHECKS = (
@@ -43,14 +30,6 @@ CHECKS = (
         "N",
         ROTORS,
         "`plant.mass_scale`, `compliance.thrust_fraction`, `vehicle.quadrotors`, `disturbance.force`, `pushes`",
-    ),
-    FlightCheck(
-        "supervised lift",
-        "weight that the pilot assumes",
-        "`supervision.checks.thrust_fraction` of the thrust",
-        "N",
-        '`supervision.model = "on"`',
-        "`supervision.checks.thrust_fraction`",
     ),
     FlightCheck(
         "tilt",
@@ -175,14 +154,7 @@ CHECKS = (
         "a push of the mission",
         "`pushes.*.point`",
     ),
-    FlightCheck(
-        "excitation",
-        "change of a rotor's thrust; tilt; way of the centre of mass, by the excitation without the controller",
-        "what the rotor has left in hover; the largest tilt that the controller or the guidance commands; the room",
-        "1, rad, m",
-        '`excitation.model = "multisine"`',
-        "`excitation.lines`, `excitation.room`",
-    ),
+    *(row for part in PARTS for row in part.rows),
     FlightCheck(
         "passage",
         "radius of a quadrotor's guard",
@@ -197,42 +169,39 @@ CHECKS = (
 @np.errstate(all="ignore")
 def flight_checks(m: Mission) -> tuple[CheckResult, ...]:
     """The results of all checks of a mission, by closed forms, in the order of the parts."""
+    facts = Facts(m)
     step, end, pilot, controller, hover = m.mission.step, m.mission.duration, m.pilot, m.controller, m.hover
     wind = WindOnParts(m.wind, hover.vehicle, m.initial.euler[2], step)
     by_hand, schedule = m.by_hand, schedule_checks.Schedule(m.phases, m.pushes, m.admittance, m.by_hand, end)
     compliant_yaw = by_hand is not None and by_hand.yaw.model == "compliant"
     each = loads_of(m.disturbance, wind, m.pushes, end, yielding_yaw=compliant_yaw)
     usable, longest = (None, end) if by_hand is None else (by_hand.thrust_fraction, by_hand.following.time)
-    lifting = m.supervision.checks.thrust_fraction if m.supervision.model == "on" else None
     promised = (promise := promise_of(m.promise, pilot.guidance)).rms_promised(pilot.guidance)
     lands = m.ground.model == "none" and m.phases.land_start is not None and m.phases.land_start < end
     offsets = (promised, promised, min(promised, m.outcome.landed_height) if lands else promised)
     windy = wind.blows and pilot.push != "truth"  # wind on the payload counts as a push
     joined = windy or m.person.model != "none" or any(change.key.startswith("admittance") for change in m.changes)
+    unobserved, over_floor = m.observer.model == "none", m.ground.model == "floor"
     loads = Loads(each, promise.distance, promise.tilt, promise.heading, longest, hover.response_time)
-    checks: dict[str, Iterator[CheckResult]] = {  # each is computed on demand
-        "authority checks": authority_checks(hover, loads, usable, tilt_limit_of(controller), lifting),
-        "start checks": start_checks(m.initial, hover, controller, step, running=m.phases.rotors == "always"),
-        "stiffness checks": itertools.chain(
-            gain_checks(controller),
-            offset_checks(controller, hover, step, wind, m.disturbance, offsets) if m.observer.model == "none" else (),
-        ),
-        "loop checks": loop_checks(m.control_loop),
-        "sensing checks": sensing_checks(m.sensors, pilot, m.estimator, schedule, wind),
-        "schedule checks": itertools.chain(
-            schedule_checks.lift_checks(schedule, m.outcome.lifted_height),
-            schedule_checks.haste_checks(schedule, hover),
-            schedule_checks.push_time_checks(schedule, m.estimator, pilot.push),
-            schedule_checks.descent_checks(schedule) if m.ground.model == "floor" else (),
-            schedule_checks.landing_checks(schedule),
-            way_checks(m.person, m.corridor, m.initial, m.phases, schedule.landing_duration, end),
-        ),
-        "push checks": push_checks(() if joined else m.pushes, m.admittance.threshold, compliant_yaw=compliant_yaw),
-        "excitation checks": excitation_checks(m.excitation, hover, tilt_limit_of(controller) or m.compliance.max_tilt),
-        "point checks": point_checks(m.pushes, hover.vehicle),
-        "passage checks": passage_checks(m.person, m.corridor, m.all_walls, m.initial, hover.vehicle),
-    }
-    return tuple(result for part, results in checks.items() for result in _computable(part, results))
+    checks: list[tuple[str, Iterator[CheckResult]]] = [  # each is computed on demand
+        ("authority", authority_checks(hover, loads, usable, tilt_limit_of(controller))),
+        ("start", start_checks(m.initial, hover, controller, step, running=m.phases.rotors == "always")),
+        ("stiffness", gain_checks(controller)),
+        *[("stiffness", offset_checks(controller, hover, step, wind, m.disturbance, offsets))] * unobserved,
+        ("loop", loop_checks(m.control_loop)),
+        ("sensing", sensing_checks(m.sensors, pilot, m.estimator, schedule, wind)),
+        ("schedule", schedule_checks.lift_checks(schedule, m.outcome.lifted_height)),
+        ("schedule", schedule_checks.haste_checks(schedule, hover)),
+        ("schedule", schedule_checks.push_time_checks(schedule, m.estimator, pilot.push)),
+        *[("schedule", schedule_checks.descent_checks(schedule))] * over_floor,
+        ("schedule", schedule_checks.landing_checks(schedule)),
+        ("schedule", way_checks(m.person, m.corridor, m.initial, m.phases, schedule.landing_duration, end)),
+        ("push", push_checks(() if joined else m.pushes, m.admittance.threshold, compliant_yaw=compliant_yaw)),
+        *((part.name, iter(facts.ask(part, part.checks))) for part in PARTS if part.checks and facts.has(part)),
+        ("point", point_checks(m.pushes, hover.vehicle)),
+        ("passage", passage_checks(m.person, m.corridor, m.all_walls, m.initial, hover.vehicle)),
+    ]
+    return tuple(dict.fromkeys(result for part, results in checks for result in _computable(f"{part} checks", results)))
 
 
 def _computable(part: str, results: Iterator[CheckResult]) -> Iterator[CheckResult]:

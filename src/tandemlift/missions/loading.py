@@ -14,6 +14,7 @@ from typing import Any
 from tandemlift.core.errors import InputError, shown, suggestion, unknown
 from tandemlift.core.files import DATA, toml_tables
 from tandemlift.core.plugs import listed
+from tandemlift.missions.acting import without_entries
 from tandemlift.missions.changes import (
     MISSING,
     Tables,
@@ -25,7 +26,6 @@ from tandemlift.missions.changes import (
 )
 from tandemlift.missions.checking import Layer, as_checked, check
 from tandemlift.missions.mission import Mission
-from tandemlift.missions.places import without_entries
 from tandemlift.missions.recording import unpacked_recording
 from tandemlift.parts.controllers import CONTROLLERS, Controller
 from tandemlift.parts.controllers import controller as controller_named

@@ -8,36 +8,47 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
 from html import escape
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args, get_type_hints
 
 from pydantic import AfterValidator, Field, PrivateAttr, SerializeAsAny, ValidationError, model_validator
 
-from tandemlift.core.errors import InputError
+from tandemlift.core.errors import InputError, shown
 from tandemlift.core.keys import NonNegative, Positive, Table, divisor, key, must
 from tandemlift.core.plugs import PluginText
 from tandemlift.core.trajectories import PhasesTable
+from tandemlift.missions.acting import holds
 from tandemlift.missions.outcomes import CrashTable, FindingsTable, OutcomeTable, PromiseTable
 from tandemlift.parts.contact.corridor import CorridorTable, WallTable, nearest_wall
 from tandemlift.parts.contact.standing import GroundTable
 from tandemlift.parts.controllers import ControllerTable
-from tandemlift.parts.estimation.contact_table import ContactTable
-from tandemlift.parts.estimation.disturbance_observer import ObserverTable
+from tandemlift.parts.estimation.contact_detection import CONTACT, ContactTable
+from tandemlift.parts.estimation.disturbance_observer import OBSERVER, ObserverTable
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
+from tandemlift.parts.estimation.push_confirmation import CONFIRMATION
 from tandemlift.parts.flight_checks.loop_checks import ControlLoop, push_feedback, reading_delays
+from tandemlift.parts.guidance.above_ground import CLEARANCE
 from tandemlift.parts.guidance.admittance import AdmittanceTable, with_feel
 from tandemlift.parts.guidance.compliance_table import ComplianceTable
+from tandemlift.parts.guidance.contact_hold import CONTACT_HOLD
+from tandemlift.parts.guidance.energy_tank import TANK
+from tandemlift.parts.guidance.following import FOLLOWING
 from tandemlift.parts.guidance.guidance import PilotTable
+from tandemlift.parts.guidance.policy import POLICY
 from tandemlift.parts.guidance.requests import RequestTable
-from tandemlift.parts.guidance.supervision_table import SupervisionTable
+from tandemlift.parts.guidance.start_guidance import BY_HAND, BY_SCHEDULE
+from tandemlift.parts.guidance.supervision import SUPERVISION, SupervisionTable
+from tandemlift.parts.guidance.yaw_compliance import HEADING
 from tandemlift.parts.mechanics.push import PushTable
 from tandemlift.parts.mechanics.rigid_body import InitialTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable, PlantTable, VehicleTable
-from tandemlift.parts.mechanics.wind import WindTable
-from tandemlift.parts.person.person_table import PersonTable
-from tandemlift.parts.pilot.excitation import ExcitationTable
-from tandemlift.parts.rotor_loss.detection_table import DetectionTable
+from tandemlift.parts.mechanics.wind import WIND, WindTable
+from tandemlift.parts.person.person_table import PERSON, PersonTable
+from tandemlift.parts.pilot.excitation import EXCITATION, ExcitationTable
+from tandemlift.parts.pilot.rotor_lead import LEAD
+from tandemlift.parts.rotor_loss.detection import DETECTION, DetectionTable
 from tandemlift.parts.rotors.allocation import AllocationTable
 from tandemlift.parts.rotors.hover import HoverFacts
 from tandemlift.parts.rotors.rotor_faults import FaultTable
@@ -130,6 +141,12 @@ class ChangeTable(Table):
     duration: NonNegative = describe_key(0.0, "s", "time within which numbers change linearly to the new value")
 
 
+@cache
+def _width(channels: type) -> int:
+    """How many numbers channels have, without the groups in them."""
+    return sum(len(getattr(kind, "_fields", "1")) for kind in get_type_hints(channels).values() if not get_args(kind))
+
+
 class Mission(Table):
     """All data that a flight depends on; see `tandemlift.missions` for loading one.
 
@@ -208,10 +225,15 @@ class Mission(Table):
         return self.compliance if self.pilot.guidance == "interactive" else None
 
     @property
+    def nominal(self) -> Vehicle:
+        """The vehicle that the pilot assumes."""
+        return Vehicle.from_settings(self.vehicle)
+
+    @property
     def hover(self) -> HoverFacts:
         """The vehicle in hover, with all faults of rotors that the flight has."""
         faults = tuple(f for f in self.faults if f.time < self.mission.duration)
-        return HoverFacts(Vehicle.from_settings(self.vehicle), self.plant, self.actuators, self.allocation, faults)
+        return HoverFacts(self.nominal, self.plant, self.actuators, self.allocation, faults)
 
     @property
     def control_loop(self) -> ControlLoop:
@@ -228,18 +250,13 @@ class Mission(Table):
         numbers = {
             "time, state, reference, admittance, push, wrench; rotors and joints": 51 + 10 * count,
             "commands of real rotors": (5 + 4 * count) * (self.actuators.model == "rotors"),
-            "wind": 6 * (self.wind.model == "air"),
             "force of floor and walls": 3 * (self.ground.model == "floor"),
             "readings and estimates": (45 + 6 * count) * (self.sensors.model == "simulated"),
             "additional sensors": sum(ADDITIONAL[s.name].width for s in more if s.name in ADDITIONAL),
-            "observer": 12 * (self.observer.model != "none"),
-            "interactive guidance": 10 * (self.pilot.guidance == "interactive"),
-            "policy": 2 * (self.compliance.policy.model != "none"),
-            "contact": 13 * (self.contact.model == "on"),
-            "supervision": 2 * (self.supervision.model == "on"),
-            "rotor-failure detection": 1 * (self.detection.model != "none"),
         }
-        return 8 * sum(numbers.values())
+        return 8 * (
+            sum(numbers.values()) + sum(_width(p.channels) for p in PARTS if p.channels and holds(self, p.acts))
+        )
 
     def _repr_html_(self) -> str:
         """HTML for a notebook: the main choices of the mission."""
@@ -259,6 +276,13 @@ class Mission(Table):
         return f"<table>{''.join(cells)}</table>"
 
 
+PARTS = [
+    *(CONTACT, CONFIRMATION, OBSERVER, BY_SCHEDULE, BY_HAND, FOLLOWING, CONTACT_HOLD, SUPERVISION, EXCITATION),
+    *(HEADING, TANK, POLICY, CLEARANCE, LEAD, DETECTION, WIND, PERSON),
+]
+"""The optional parts of a flight, in the order of their checks and channels."""
+
+
 def check_keys(tables: Mapping[str, Any]) -> None:
     """Reject a flown mission's nested tables that have an unknown key; keys of controllers are not checked.
 
@@ -272,3 +296,26 @@ def check_keys(tables: Mapping[str, Any]) -> None:
             if problem["type"] == "extra_forbidden" and problem["loc"][0] != "controller":
                 key = ".".join(map(str, problem["loc"]))
                 raise InputError(f"{key}: unknown key of a mission; `tandemlift explain` lists all") from None
+
+
+def check_double(mission: Mission, reason: str) -> None:
+    """Refuse single precision for a reason.
+
+    Raises:
+        InputError: the mission asks for it.
+    """
+    if mission.mission.precision == "single":
+        raise InputError(f"mission.precision = 'single': must be 'double' here, because {reason}")
+
+
+def with_precision(mission: Mission, precision: str | None) -> Mission:
+    """A mission in the precision that a caller asks for; in its own if None.
+
+    Raises:
+        InputError: there is no such precision.
+    """
+    if precision is None or precision == mission.mission.precision:
+        return mission
+    if precision not in ("double", "single"):
+        raise InputError(f"precision = {shown(precision)}: must be 'double' or 'single'")
+    return mission.model_copy(update={"mission": mission.mission.model_copy(update={"precision": precision})})

@@ -14,7 +14,7 @@ from pydantic import Field
 from tandemlift.core.errors import CheckResult, refused, shown, warned
 from tandemlift.core.findings import FindingName
 from tandemlift.core.keys import Fraction, NonNegative, Positive, Table, key
-from tandemlift.parts.guidance.supervision_table import SupervisionTable
+from tandemlift.parts.guidance.supervision import SupervisionTable
 from tandemlift.parts.mechanics.rigid_body import InitialTable
 from tandemlift.parts.sensors.sensors_table import MotionSensor
 

@@ -13,7 +13,7 @@ from typing import Any
 from tandemlift.core.errors import InputError, shown, written
 from tandemlift.core.files import parts_of
 from tandemlift.missions.key_descriptions import EXTENDS, PAPER, PLUGINS, Key, Section, default_words, sections
-from tandemlift.missions.renamed import present_name
+from tandemlift.missions.refusals import present_name
 
 NEAREST = 3
 

@@ -1,4 +1,4 @@
-"""Problems of a mission's tables, in one sentence for each key: the given value and the allowed ones."""
+"""Problems of a mission's tables, a sentence for each key: the given value, the allowed ones, or its present name."""
 
 from __future__ import annotations
 
@@ -16,7 +16,6 @@ from tandemlift.core.keys import description_of, is_number
 from tandemlift.core.plugs import Chosen
 from tandemlift.missions.changes import MISSING, Place, value_at
 from tandemlift.missions.key_descriptions import Model, allowed, plain, table_in
-from tandemlift.missions.renamed import present_name
 
 MOST = 64  # problems with a sentence, more than are told: those of a file of garbage would take seconds
 BY_ANNOTATION = (  # prefixes of the kinds of error for which the annotation has the allowed values
@@ -144,3 +143,40 @@ def _unknown_key(model: Model, problem: ErrorDetails, data: object, prefix: Plac
     this = f"{dotted(where)} has" if where else f"{whole} has the tables"
     given = f"{dotted((*where, name))} = {shown(value_at(data, problem['loc']))}"
     return (*above, name), f"{given}: unknown key; {this} {', '.join(names)}{hint}"
+
+
+RENAMED = {  # by table: OLD=NEW
+    "": "partner=person",
+    "mission": "fused=fma",
+    "admittance": "reanchor=hold_after_release",
+    "compliance": "hearing=input_bandwidth easing=output_bandwidth release=release_fraction forget=bias_time_constant "
+    "braking=braking_gain thrust_share=thrust_fraction lead=reference_lead press=touchdown_depth spool=spin_up_time "
+    "max_descent=max_descent_speed",
+    "compliance.yaw": "leash=max_lead_angle",
+    "compliance.tank": "size=capacity low=low_energy refill=refill_fraction fade=fade_time",
+    "detection": "forget=bias_bandwidth habit=scatter_bandwidth spread=thrust_uncertainty evidence=threshold "
+    "margin=isolation_margin unexplained=unexplained_fraction retest=retest_time",
+    "estimator": "least_force=min_force",
+    "supervision": "patience=hold_timeout calm=recovery_time deeper=blind_descent_depth touch=touchdown_gap "
+    "sinking=blind_descent_acceleration watch=watchdog",
+    "supervision.checks": "thrust_share=thrust_fraction payload_least=min_payload_ratio payload_most=max_payload_ratio",
+    "supervision.watchdog": "stale=stale_time invalid=invalid_time frozen=frozen_samples force=max_force "
+    "torque=max_torque specific_force=max_specific_force rates=max_rates position=max_position velocity=max_velocity "
+    "turn_bandwidth=rates_bandwidth way_bandwidth=velocity_bandwidth",
+    "supervision.fence": "slowing=braking_gain",
+    "supervision.limits": "thrust_share=thrust_fraction error=tracking_error error_time=tracking_error_time",
+    "supervision.reactions": "unit=imu joints_apart=joints_inconsistent attitude_apart=attitude_inconsistent "
+    "velocity_apart=velocity_inconsistent speed_apart=speed_inconsistent error=tracking_error",
+    "person": "approach=approach_gain breakaway=breakaway_force trimming=trim_rate corner=corner_distance "
+    "arrive=arrival_radius slow=landing_speed turn_gain=yaw_gain turn_damping=yaw_damping start=start_time "
+    "height_share=height_fraction",
+}
+
+
+def present_name(key: str) -> str:
+    """The present name of a dotted key without numbers; the same if it or a table of it was never renamed."""
+    names = list[str]()
+    for part in key.split("."):
+        own = dict(one.split("=") for one in RENAMED.get(".".join(names), "").split())
+        names.append(own.get(part, part))
+    return ".".join(names)

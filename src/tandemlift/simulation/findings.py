@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterator, Sequence
+from typing import Any
 
-from tandemlift.core.faults import ALARM_TEXTS, CHECKS
 from tandemlift.core.findings import Finding, FindingName, finding
-from tandemlift.core.phases import IDLE, LAND, LIFT, REASONS, STOPPED
 from tandemlift.core.trajectories import PhasesTable
-from tandemlift.core.vector import Absent, dot, total
+from tandemlift.core.vector import Absent
+from tandemlift.missions.facts import Facts
+from tandemlift.missions.mission import PARTS
 from tandemlift.missions.outcomes import FindingsTable, Promise, promise_of
-from tandemlift.parts.guidance.hand_guidance import HandGuidanceState
 from tandemlift.parts.guidance.requests import RequestTable
-from tandemlift.parts.guidance.supervision import ALARM, CONTACT, PHASE, SLOTS, SupervisionState
 from tandemlift.simulation.loop.detectors import Detectors
 from tandemlift.simulation.loop.excess import Excess
 from tandemlift.simulation.loop.oscillation import Swings
@@ -49,10 +49,8 @@ def findings_of(p: FlightPlan, flight_state: FlightState, steps: int, outcome: s
         *_unanswered(d.push.unanswered, p, flight_state),
         *_unpushed(d.unpushed.excess, limits.unpushed_distance, p.dt),
         *_refuted(d.refuted, limits.refuted_time, p.dt),
-        *_cannot_follow(flight_state, mission.compliance.following.heading_timeout),
         *_touches(flight_state),
-        *_by_events(flight_state),
-        *_by_lost_rotor(p, flight_state),
+        *itertools.chain(*of_parts(p, flight_state, "findings")),
         *_not_landed(p, flight_state, outcome, steps * p.dt),
     ]
     return tuple(sorted((f for f in found if f.kind not in limits.ignore), key=lambda f: f.time))
@@ -193,15 +191,6 @@ def _refuted(m: Excess, longest: float, dt: float) -> Iterator[Finding]:
         yield _excess("push-refuted", text, m, dt, "push that the motion refutes", size, "N")
 
 
-def _cannot_follow(flight_state: FlightState, limit: float) -> Iterator[Finding]:
-    guidance = flight_state.memory.guidance
-    if isinstance(guidance, HandGuidanceState) and (m := guidance.following).most_urgent:
-        reason = REASONS[int(m.most_urgent) - 1]
-        lands = ", so that it lands" if m.longest_lost > limit else ""
-        text = f"the vehicle cannot follow: {reason.text}, for {m.lasted:.3g} s{lands}"
-        yield finding("cannot-follow", text, time=m.first, duration=m.lasted, quantity=reason.text)
-
-
 def _touches(flight_state: FlightState) -> Iterator[Finding]:
     for t in touches_of(flight_state):
         text = f"the {t.part} touched {'the floor' if t.surface == 'floor' else 'a wall'} with up to {t.force:.3g} N"
@@ -216,52 +205,14 @@ def _touches(flight_state: FlightState) -> Iterator[Finding]:
         )
 
 
-def _by_events(flight_state: FlightState) -> Iterator[Finding]:
-    """Findings from the events of the supervision."""
-    before: float = IDLE
-    refused = None
-    for t, (phase, alarm, check, _) in supervision_events(flight_state):
-        if phase in (LAND, STOPPED) and phase != before and alarm:
-            cause, did = ALARM_TEXTS[alarm], "landed" if phase == LAND else "stopped its rotors"
-            yield finding("landed-by-fault", f"{did} because of a fault: {cause}", time=t, quantity=cause)
-        refused = (t, check) if phase == IDLE and check else None if phase == LIFT else refused
-        before = phase
-    if refused:
-        text = CHECKS[refused[1] - 1].text
-        yield finding("lift-refused", f"a lift was refused: {text}", time=refused[0], quantity=text)
-
-
-EventCode = tuple[int, int, int, int]  # phase, alarm, failed check, contact
-
-
-def supervision_events(flight_state: FlightState) -> list[tuple[float, EventCode]]:
-    """Time [s] and content of the last events of the supervision, in the order of time; none without supervision."""
-    supervising = getattr(flight_state.memory.guidance, "supervision", None)
-    if not isinstance(supervising, SupervisionState):
-        return []
-    log = supervising.events
-    kept = [(t, _event(code)) for t, code in zip(log.time, log.code, strict=True)]
-    oldest = int(log.count) - SLOTS
-    return kept[oldest:] + kept[:oldest] if oldest >= 0 else kept[: int(log.count)]
-
-
-def _event(code: float) -> EventCode:
-    return int(code % CONTACT // PHASE), int(code % PHASE // ALARM), int(code % ALARM), int(code // CONTACT)
-
-
-def _by_lost_rotor(p: FlightPlan, flight_state: FlightState) -> Iterator[Finding]:
-    """The finding of a landing after a detected rotor failure, if no supervision reports it."""
-    detection, memory, guidance = p.model.pilot.detection, flight_state.memory.detection, flight_state.memory.guidance
-    supervised = isinstance(getattr(guidance, "supervision", None), SupervisionState)
-    if isinstance(detection, Absent) or isinstance(memory, Absent) or supervised:
-        return
-    verdict = memory.verdict
-    if p.mission.pilot.guidance != "interactive" or not total(verdict.lost):
-        return
-    text = f"landed because of a fault: rotor {int(dot(verdict.lost, detection.numbers))} failed"
-    yield finding(
-        "landed-by-fault", text, time=verdict.since + p.mission.detection.retest_time, quantity="rotor failed"
-    )
+def of_parts(p: FlightPlan, flight_state: FlightState, name: str) -> Iterator[Any]:
+    """What the function of that name of each part of a flight says of its last state."""
+    pilot, memory = p.model.pilot, flight_state.memory
+    held = {"pilot": (pilot, memory), "guidance": (pilot.guidance, memory.guidance)}
+    for part in (part for part in PARTS if getattr(part, name)):
+        k, m = (getattr(of, part.name, Absent()) for of in held[part.within])
+        if not isinstance(k, Absent):
+            yield Facts(p.mission).ask(part, getattr(part, name), k=k, m=m)
 
 
 def _not_landed(p: FlightPlan, flight_state: FlightState, outcome: str, end: float) -> Iterator[Finding]:

@@ -14,14 +14,14 @@ from tandemlift.core.refusals import Refusals
 from tandemlift.core.types import Array, flat, leaves, unflat
 from tandemlift.core.vector import ZERO, Absent, Quat
 from tandemlift.missions import Mission, MissionLike, check_double, mission_of
+from tandemlift.missions.facts import Facts
 from tandemlift.parts.controllers import control
 from tandemlift.parts.guidance.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.pilot.pilot import PilotInput
+from tandemlift.simulation.preparation.assemble import start_pilot
 from tandemlift.simulation.preparation.memory import aligned
 from tandemlift.simulation.preparation.pilot_sampling import MEASURED, PilotData, pilot_code
-from tandemlift.simulation.preparation.start_pilot import start_pilot
 from tandemlift.simulation.preparation.traced_assembly import assembled_by_graph
 from tandemlift.simulation.refusals import refusals_of
 
@@ -32,7 +32,7 @@ INPUT = PilotInput(
 
 def pilot_at_start(mission: Mission) -> PilotData:
     """The pilot of a mission before its first sample."""
-    parameters, memory = start_pilot(mission, Vehicle.from_settings(mission.vehicle))
+    parameters, memory = start_pilot(Facts(mission))
     return PilotData(0.0, memory, parameters)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -17,13 +18,14 @@ from tandemlift.core.phases import CONTACT as PHASE_CONTACT
 from tandemlift.core.phases import FAILURES, IDLE, PHASE_NAMES
 from tandemlift.core.plugs import Plug, error_text, file_of, listed
 from tandemlift.core.types import Array, flat, leaves, unflat
-from tandemlift.core.vector import Absent, Vec3, dot
+from tandemlift.core.vector import Absent, Vec3
 from tandemlift.flight.channels import DERIVED
 from tandemlift.flight.reading_stamps import reading_stamps
 from tandemlift.flight.record import Ending, Flight
 from tandemlift.missions import tables_of
 from tandemlift.missions.recording import portable
-from tandemlift.simulation.findings import EventCode, findings_of, supervision_events
+from tandemlift.parts.guidance.supervision import EventCode, supervision_events
+from tandemlift.simulation.findings import findings_of, of_parts
 from tandemlift.simulation.loop.running_metrics import EMPTY, RunningMetrics, summary
 from tandemlift.simulation.loop.step import FlightModel, FlightState
 from tandemlift.simulation.outcome import ending_of, outcome_of
@@ -31,7 +33,6 @@ from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import leaf_offset
 from tandemlift.simulation.touches import describe_contact
 
-DETECTION = ("rotor_failure_detections", "rotor_failure_detection_delay_s")  # metrics with detection of a lost rotor
 ONE_STEP = EMPTY._replace(steps=1.0)
 SHAPES = summary(ONE_STEP, ONE_STEP, 1.0)  # metrics that every flight has, with numbers in their place
 OF_ANY_FLIGHT = (  # metrics besides those of `summary`
@@ -98,7 +99,8 @@ def metrics_of(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     formed["command_at_start"] = [first.thrust, *first.moment]
     if p.mission.pilot.guidance == "scheduled":  # its pushes have no trigger
         formed["push_triggers_after_10s"] = None
-    formed |= _detection_metrics(p, flown)
+    for more in of_parts(p, flown.flight_state, "metrics"):
+        formed |= more
     formed = {name: _finite_or_none(value) for name, value in formed.items()}
     highest = max(early.highest, late.highest)
     now, state = flown.now or p, flown.flight_state
@@ -112,8 +114,8 @@ def metrics_of(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
 def metric_names(p: FlightPlan) -> list[str]:
     """The names of the metrics of a flight, known before it is flown."""
     empty = p.model.flight_state.metrics
-    detected = DETECTION if not isinstance(p.model.pilot.detection, Absent) else ()
-    return [*summary(empty, empty, p.dt), *detected, *OF_ANY_FLIGHT]
+    of_part = of_parts(p, p.model.flight_state, "metrics")
+    return [*summary(empty, empty, p.dt), *itertools.chain(*of_part), *OF_ANY_FLIGHT]
 
 
 def channel_names(p: FlightPlan) -> list[str]:
@@ -125,7 +127,7 @@ def channel_names(p: FlightPlan) -> list[str]:
 def events_of(flight_state: FlightState) -> list[list[Any]]:
     """Events of the supervision, as [time [s], text], in the order of time; none without supervision."""
     story, before = [], (0, 0, 0, 0)
-    for at, now in supervision_events(flight_state):
+    for at, now in supervision_events(getattr(flight_state.memory.guidance, "supervision", Absent())):
         story.append([round(float(at), 6), describe_event(now, before)])
         before = now
     return story
@@ -142,17 +144,6 @@ def describe_event(now: EventCode, before: EventCode) -> str:
     if phase != before[0] or not refused:
         return PHASE_NAMES[phase] + (f": {CHECKS[refused - 1].text}" if refused else "")
     return f"{'no lift' if phase == IDLE else 'guidance disabled'}: {CHECKS[refused - 1].text}"
-
-
-def _detection_metrics(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
-    """Metrics of the rotor-loss detection: number of detections, and delay [s] of the correct one (None without)."""
-    detection, memory = p.model.pilot.detection, flown.flight_state.memory.detection
-    if isinstance(detection, Absent) or isinstance(memory, Absent):
-        return {}
-    v = memory.verdict
-    lost = int(dot(v.lost, detection.numbers))
-    times = [f.time for f in p.mission.faults if 4 * (f.quadrotor - 1) + f.rotor == lost]
-    return dict(zip(DETECTION, (v.named, v.since - times[0] if times else None), strict=True))
 
 
 def channels_of(like: Any, rows: Array) -> Iterator[tuple[str, Array]]:

@@ -17,8 +17,8 @@ from tandemlift.flight.channels import DERIVED, Channel, channel_of
 from tandemlift.flight.record import Ending, Flight, interruption
 from tandemlift.missions import MissionLike, mission_of
 from tandemlift.missions.recording import engine_of
-from tandemlift.parts.mechanics.push_checks import on_vehicle_checks
 from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle_checks import on_vehicle_checks
 from tandemlift.simulation.caller_values import checked_seed, count_of, held_inputs, numbers
 from tandemlift.simulation.loop.running_metrics import EMPTY
 from tandemlift.simulation.outcome import ending_of

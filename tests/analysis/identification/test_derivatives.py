@@ -9,8 +9,6 @@ import pytest
 from flight_windows import cut, iris
 
 from tandemlift.analysis.identification.equations import ROBUST, Linearisation, _block_means
-from tandemlift.analysis.identification.log import IMU, JOINTS, MOTION, Stream, conjugate
-from tandemlift.analysis.identification.log import quaternion_product as product
 from tandemlift.analysis.identification.prediction import (
     OUTPUTS,
     STARTS,
@@ -21,6 +19,8 @@ from tandemlift.analysis.identification.prediction import (
     moved_starts,
 )
 from tandemlift.analysis.identification.sensor_errors import SensorPriors
+from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, Stream, conjugate
+from tandemlift.analysis.logs.log import quaternion_product as product
 from tandemlift.core.types import flat
 from tandemlift.engines.vehicle_unknowns import unknowns_of
 

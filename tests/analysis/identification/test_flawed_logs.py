@@ -6,8 +6,8 @@ import pytest
 import tandemlift as tl
 from tandemlift.analysis.identification.identification import Identification, Row, with_values
 from tandemlift.analysis.identification.identify import reference_rows
-from tandemlift.analysis.identification.log import JOINTS, MOTION, PUSH, SPEED_COMMANDS, Log, Stream, log_of
 from tandemlift.analysis.identification.windows import windows_of
+from tandemlift.analysis.logs.log import JOINTS, MOTION, PUSH, SPEED_COMMANDS, Log, Stream, log_of
 from tandemlift.core.errors import InputError
 from tandemlift.engines.driven_vehicle import effect_floor
 from tandemlift.missions import load_mission

@@ -15,12 +15,12 @@ from tandemlift.analysis.identification.fit import CHANCE, UNEXPLAINED, VehicleS
 from tandemlift.analysis.identification.identification import NORMAL, Identification, Row, rows_of
 from tandemlift.analysis.identification.identify import _with_derivatives
 from tandemlift.analysis.identification.judgement import covariance_of, misfit_by_window, whiteness
-from tandemlift.analysis.identification.log import IMU, JOINTS, MOTION
 from tandemlift.analysis.identification.prediction import (
     STARTS,
     PredictedDerivatives,
 )
 from tandemlift.analysis.identification.sensor_errors import SensorPriors
+from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION
 from tandemlift.missions import load_mission
 
 RNG = np.random.default_rng(11)

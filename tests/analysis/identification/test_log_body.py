@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from tandemlift.analysis.identification import shadow as shadows
-from tandemlift.analysis.identification.log import COMMANDS, IMU, JOINTS, MOTION, PUSH, SPEED_COMMANDS, Log, Stream
 from tandemlift.analysis.identification.shadow import LogBody
+from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, PUSH, SPEED_COMMANDS, Log, Stream
 from tandemlift.core.vector import Vec3
 from tandemlift.missions import load_mission
 

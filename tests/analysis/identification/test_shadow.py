@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.analysis.identification.log import COMMANDS, MOTION, SPEED_COMMANDS, Log, Stream, log_of
+from tandemlift.analysis.logs.log import COMMANDS, MOTION, SPEED_COMMANDS, Log, Stream, log_of
 from tandemlift.flight.channels import FLOWN
 
 OF_THE_PILOT = (

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from flight_windows import cut, iris
 
-from tandemlift.analysis.identification.log import COMMANDS, IMU, MOTION, SPEED_COMMANDS, Log, Stream
 from tandemlift.analysis.identification.windows import (
     _clear,
     _in_flight,
@@ -15,6 +14,7 @@ from tandemlift.analysis.identification.windows import (
     _without_spikes,
     windows_of,
 )
+from tandemlift.analysis.logs.log import COMMANDS, IMU, MOTION, SPEED_COMMANDS, Log, Stream
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY
 

@@ -6,7 +6,7 @@ import pytest
 from click.testing import CliRunner
 
 import tandemlift as tl
-from tandemlift.analysis.identification.log import COMMANDS, IMU, JOINTS, MOTION, log_of
+from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, log_of
 from tandemlift.apps.cli.main import cli
 from tandemlift.flight.channels import FLOWN
 

@@ -11,7 +11,7 @@ from tandemlift.missions import load_mission
 from tandemlift.missions.checks import check_lines
 from tandemlift.missions.key_descriptions import as_key, sections
 from tandemlift.missions.reference import explained, plain_name
-from tandemlift.missions.renamed import RENAMED, present_name
+from tandemlift.missions.refusals import RENAMED, present_name
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.analysis.identification.log import IMU, MOTION
+from tandemlift.analysis.logs.log import IMU, MOTION
 
 N, STEP = 400, 0.005
 TIME = np.arange(N) * STEP

@@ -13,7 +13,7 @@ from rosbags.typesys import Stores, get_typestore
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.analysis.identification.log import IMU, JOINTS, MOTION, log_of
+from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, log_of
 from tandemlift.apps.export.write import export
 
 TIME = np.arange(40) * 0.005  # s

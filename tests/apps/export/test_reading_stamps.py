@@ -8,7 +8,7 @@ import pytest
 from exported import mcap_of, numbers, xyz
 
 import tandemlift as tl
-from tandemlift.analysis.identification.log import log_of
+from tandemlift.analysis.logs.log import log_of
 from tandemlift.apps.export.reading import read_bag
 from tandemlift.apps.export.write import export
 from tandemlift.flight.channels import STAMP, stamp_of

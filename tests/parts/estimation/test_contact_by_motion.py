@@ -7,9 +7,9 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.core.vector import Absent, Vec3, each
+from tandemlift.parts.estimation.contact_detection import ContactTable, start_contact_detection
 from tandemlift.parts.estimation.contact_evidence import BEAM, by_line_of_action, heard, start_evidence
 from tandemlift.parts.estimation.contact_map import UNMATCHED, BeamMatch, GuardMatch
-from tandemlift.parts.estimation.contact_table import ContactTable, start_contact_detection
 
 DT = 1e-3
 VEHICLE = tl.Vehicle.from_settings(tl.load_mission("iris").vehicle)

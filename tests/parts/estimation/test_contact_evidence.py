@@ -12,12 +12,12 @@ from tandemlift.parts.contact.wall_geometry import Wall
 from tandemlift.parts.contact.walls import NearWalls
 from tandemlift.parts.estimation.contact_detection import (
     AWAY,
+    NO_CONTACT,
     QUIET_TIME,
     axis_of,
     begun,
     is_over,
     radius_of,
-    start_contact,
 )
 from tandemlift.parts.estimation.contact_evidence import (
     BEAM,
@@ -187,7 +187,7 @@ def test_a_beam_that_touches_is_told_where_the_push_acts_or_where_the_map_has_a_
 
 
 def test_a_contact_is_over_without_force_or_once_the_part_has_moved_away_and_not_along_the_wall():
-    c = start_contact(DETECTOR).contact._replace(part=1.0, normal=Vec3(-1.0, 0.0, 0.0), along=0.95)
+    c = NO_CONTACT._replace(part=1.0, normal=Vec3(-1.0, 0.0, 0.0), along=0.95)
     at = axis_of(DETECTOR, 1.0, 0.95, STATE)
     c = c._replace(point=at - c.normal * radius_of(DETECTOR, 1.0))
     for shift, quiet, over in (

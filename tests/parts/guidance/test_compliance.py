@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from guided import hand_guidance
 from scipy.integrate import solve_ivp
 
 import tandemlift as tl
@@ -25,7 +26,6 @@ from tandemlift.parts.guidance.energy_tank import EnergyTank, EnergyTankState, p
 from tandemlift.parts.guidance.phases import PhaseOutput
 from tandemlift.parts.guidance.yaw_compliance import YawCompliance, YawState, yaw_step
 from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.simulation.preparation.start_pilot import start_hand_guidance
 
 H = 1e-3
 BAND = DeadBand(0.3, 0.2, 0.016, 1.0 / 20.0)
@@ -48,7 +48,7 @@ def guided(changes=None):
     mission = tl.load_mission(
         "one-push", {"pilot.guidance": "interactive", "admittance.gate": "soft", **(changes or {})}
     )
-    return start_hand_guidance(mission, Vehicle.from_settings(mission.vehicle), Absent())
+    return hand_guidance(mission)
 
 
 def motion(push, seconds, changes=None, across=100.0):

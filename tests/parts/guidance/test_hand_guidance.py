@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from guided import hand_guidance
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
@@ -15,11 +16,9 @@ from tandemlift.parts.guidance.hand_guidance import grounded_at, presses_on_grou
 from tandemlift.parts.guidance.phases import PhaseOutput
 from tandemlift.parts.guidance.supervised_reference import fenced, usable_input, with_blind_descent
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.simulation.preparation.start_pilot import start_hand_guidance
 
 MISSION = tl.load_mission("iris", {"supervision.model": "on"})
-GUIDANCE, MEMORY = start_hand_guidance(MISSION, Vehicle.from_settings(MISSION.vehicle), Absent())
+GUIDANCE, MEMORY = hand_guidance(MISSION)
 SUPERVISION, SEEN = GUIDANCE.supervision, MEMORY.supervision
 LEVEL = Quat(1.0, 0.0, 0.0, 0.0)
 STATE = State(Vec3(1.0, 2.0, 3.0), Vec3(0.1, 0.2, 0.3), LEVEL, Vec3(0.3, 0.2, 0.1))
@@ -69,7 +68,7 @@ def test_on_the_ground_the_reference_stays_with_the_vehicle_at_rest_and_in_the_a
 
 def test_the_heading_yields_to_the_moment_about_the_vertical_however_the_vehicle_is_tilted():
     mission = tl.load_mission("one-push", {"pilot.guidance": "interactive", "compliance.yaw.model": "compliant"})
-    g, m = start_hand_guidance(mission, Vehicle.from_settings(mission.vehicle), Absent())
+    g, m = hand_guidance(mission)
     tilted, moment = Rotation.from_euler("zxy", [0.7, 0.3, -0.2]), [0.5, -0.3, 0.8]
     state = STATE._replace(attitude=Quat(*tilted.as_quat(scalar_first=True).tolist()))
     pilot_input = PilotInput(state, ZERO, vec3(moment), 0.0, Absent())
@@ -85,7 +84,7 @@ def test_the_first_heading_is_that_of_the_vehicle_within_half_a_turn(yaw):
     """However many turns the table gives it: the laws wrap differences of headings once."""
     for model in ("held", "compliant"):
         mission = tl.load_mission("iris", {"initial.euler": [0.0, 0.0, yaw], "compliance.yaw.model": model})
-        g, m = start_hand_guidance(mission, Vehicle.from_settings(mission.vehicle), Absent())
+        g, m = hand_guidance(mission)
         angle = g.heading.angle if model == "held" else m.heading.angle
         assert angle == pytest.approx(Rotation.from_euler("z", yaw).as_rotvec()[2])
 

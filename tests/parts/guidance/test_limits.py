@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from guided import hand_guidance
 
 import tandemlift as tl
 from tandemlift.core.phases import REASONS
@@ -19,9 +20,7 @@ from tandemlift.parts.guidance.following import (
     update_following,
 )
 from tandemlift.parts.guidance.requests import ReferenceVelocity
-from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotor_faults import rotor_faults
-from tandemlift.simulation.preparation.start_pilot import start_hand_guidance
 
 H = 1e-3
 NOT_LED = Absent()
@@ -109,7 +108,7 @@ def lowest(clearance, push, start=1.0, seconds=8.0, lead=NOT_LED):
     """The height of the reference above the ground at every step under a push F(t) [N], or at a caller's velocity."""
     changes = {"pilot.guidance": "interactive", "admittance.gate": "soft"}
     mission = tl.load_mission("one-push", changes)
-    g, m = start_hand_guidance(mission, Vehicle.from_settings(mission.vehicle), Absent())
+    g, m = hand_guidance(mission)
     m, heights = m.compliance, []
     for i in range(round(seconds / H)):
         k = above_ground(clearance, g.compliance, m.position.z + start)

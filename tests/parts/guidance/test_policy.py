@@ -9,6 +9,7 @@ import tandemlift as tl
 from tandemlift.core.errors import InputError
 from tandemlift.core.low_pass import LowPassState
 from tandemlift.core.vector import Vec3, dot
+from tandemlift.parts.guidance.admittance import AdmittanceTable
 from tandemlift.parts.guidance.policy import (
     FORCE,
     INPUTS,
@@ -41,7 +42,8 @@ def random_weights(rng, size=1.0, units=UNITS):
 
 
 def policy_of(weights, factor=4.0):
-    return start_policy(PolicyTable(model="network", weights=weights, factor=factor), DAMPING)
+    admittance = AdmittanceTable(mass=1.0, damping=DAMPING.tolist(), threshold=0.0)
+    return start_policy(PolicyTable(model="network", weights=weights, factor=factor), admittance)
 
 
 def samples(rng, count=200):
@@ -115,7 +117,7 @@ def test_while_pushes_are_not_followed_the_damping_is_the_missions():
 
 def test_a_network_makes_no_force_where_there_is_no_damping_to_multiply():
     mission = tl.load_mission("iris", {"compliance.policy.model": "network", "admittance.damping": 0.0})
-    policy = start_policy(mission.compliance.policy, mission.admittance.damping)
+    policy = start_policy(mission.compliance.policy, mission.admittance)
     for push, v in samples(np.random.default_rng(8), 20):
         assert policy_damping(policy, push, v, 1.0)[0] == (0.0, 0.0, 0.0)
 

@@ -1,11 +1,12 @@
 """The reaction to faults over time, what it bounds, and the log of events, sample by sample."""
 
 import pytest
+from guided import hand_guidance
 
 import tandemlift as tl
 from tandemlift.core.faults import REACTIONS
 from tandemlift.core.phases import GUIDED, HOLD, IDLE
-from tandemlift.core.vector import ZERO, Absent
+from tandemlift.core.vector import ZERO
 from tandemlift.parts.guidance.fault_detection import FaultReaction
 from tandemlift.parts.guidance.preflight_checks import SensorStatus
 from tandemlift.parts.guidance.supervision import (
@@ -17,12 +18,10 @@ from tandemlift.parts.guidance.supervision import (
     supervision_output,
     update_reaction,
 )
-from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.sensors.health import WELL
-from tandemlift.simulation.preparation.start_pilot import start_hand_guidance
 
 MISSION = tl.load_mission("iris", {"supervision.model": "on"})
-GUIDANCE, MEMORY = start_hand_guidance(MISSION, Vehicle.from_settings(MISSION.vehicle), Absent())
+GUIDANCE, MEMORY = hand_guidance(MISSION)
 DT = 0.25  # s: times add up exactly
 K = GUIDANCE.supervision._replace(recovery_time=1.0, hold_timeout=3.0)
 START, STARTED_PHASE = MEMORY.supervision, MEMORY.phase

@@ -51,7 +51,7 @@ def company(model: str, path: Any = ((5.0, 0.0),), **changes: Any) -> tuple[Any,
     mission = tl.load_mission("hover", keys)
     vehicle, state = Vehicle.from_settings(mission.vehicle), start_state(mission)
     walk = Walk(mission.person.path, state, mission.initial.euler[2], mission.phases.height)
-    person, memory, _ = start_person(mission.person, vehicle, mission.mission.step, walk)
+    person, memory = start_person(mission.person, vehicle, mission.mission.step, walk)
     return person, memory, path_legs_from(mission.person, person, walk)
 
 

@@ -6,6 +6,7 @@ import pytest
 import tandemlift as tl
 from tandemlift.core.vector import Absent, Vec3
 from tandemlift.missions import check, load_mission, tables_of
+from tandemlift.missions.facts import Facts
 from tandemlift.missions.flight_checks import flight_checks
 from tandemlift.parts.guidance.requests import ReferenceVelocity
 from tandemlift.parts.mechanics.rigid_body import Wrench
@@ -69,7 +70,7 @@ def test_outside_its_window_the_reference_has_a_callers_velocity():
 
 
 def test_an_absent_excitation_changes_nothing():
-    k = start_excitation(ExcitationTable())
+    k = Facts(load_mission("hover")).started("pilot")[0]["excitation"]
     assert k == Absent()
     assert excited(k, U, 1.0, 5.0) is U
     assert excited_lead(k, Absent(), 5.0) == Absent()

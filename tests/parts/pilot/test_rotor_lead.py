@@ -5,6 +5,7 @@ import pytest
 
 from tandemlift.core.vector import Absent, Vec3
 from tandemlift.missions import load_mission
+from tandemlift.missions.facts import Facts
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.pilot.rotor_lead import lead_step, start_lead
 from tandemlift.parts.rotors.allocation import AllocationTable
@@ -45,7 +46,7 @@ def test_a_steady_wrench_passes_as_it_is_from_a_hover_on():
 
 
 def test_without_lead_time_the_wrench_is_the_controllers_own():
-    k, memory = start_lead(AllocationTable(), 34.0, H, hovers=True)
+    k, memory = (held["lead"] for held in Facts(load_mission("paper")).started("pilot"))
     u = Wrench(3.0, Vec3(1.0, 2.0, 3.0))
     assert (k, memory) == (Absent(), Absent())
     assert lead_step(k, memory, u) == (u, memory)

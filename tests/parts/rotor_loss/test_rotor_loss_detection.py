@@ -20,9 +20,9 @@ from tandemlift.parts.rotor_loss.detection import (
     followed,
     left_of,
     residual,
+    start_detection,
     with_trials,
 )
-from tandemlift.parts.rotor_loss.detection_table import start_detection
 from tandemlift.parts.rotors.allocation import mixer_from
 
 MISSION = load_mission("iris", {"detection.model": "residual", "actuators.start": "hover"})

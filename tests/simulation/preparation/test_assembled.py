@@ -46,7 +46,7 @@ def test_whose_law_changes_the_layout_is_named():
 
 def limits(**changes):
     mission = tl.load_mission("iris", {key.replace("__", "."): value for key, value in changes.items()})
-    return finding_limits_from(mission, Vehicle.from_settings(mission.vehicle))
+    return finding_limits_from(mission)
 
 
 def test_an_axis_owes_the_speed_of_its_damping_and_none_with_a_spring_or_without_damping():

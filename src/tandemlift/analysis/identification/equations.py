@@ -12,7 +12,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.identification.log import JOINTS
 from tandemlift.analysis.identification.prediction import FORCES, STARTS, PredictedDerivatives, Predictor
 from tandemlift.analysis.identification.sensor_errors import (
     SensorPriors,
@@ -22,6 +21,7 @@ from tandemlift.analysis.identification.sensor_errors import (
     robust_sd,
 )
 from tandemlift.analysis.identification.windows import FlightWindows, Places, Samples, Truths
+from tandemlift.analysis.logs.log import JOINTS
 from tandemlift.core.types import Array
 from tandemlift.engines.vehicle_unknowns import Unknowns
 

@@ -21,10 +21,10 @@ from tandemlift.analysis.identification.judgement import (
     remarks_on,
     whiteness,
 )
-from tandemlift.analysis.identification.log import Log, log_of
 from tandemlift.analysis.identification.prediction import Predictor
 from tandemlift.analysis.identification.sensor_errors import sensor_priors
 from tandemlift.analysis.identification.windows import FEWEST, LENGTH, FlightWindows, windows_of
+from tandemlift.analysis.logs.log import Log, log_of
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Array, Progress, flat

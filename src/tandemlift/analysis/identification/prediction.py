@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.identification.log import JOINTS, conjugate, quaternion_product
 from tandemlift.analysis.identification.windows import FlightWindows, Places
+from tandemlift.analysis.logs.log import JOINTS, conjugate, quaternion_product
 from tandemlift.compiler.machine_code.series import Series
 from tandemlift.core.caching import LastUsed
 from tandemlift.core.types import Array, flat

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tandemlift.analysis.identification.clocks import GROUPS
-from tandemlift.analysis.identification.log import JOINTS, conjugate, quaternion_product
 from tandemlift.analysis.identification.windows import Samples
+from tandemlift.analysis.logs.clocks import GROUPS
+from tandemlift.analysis.logs.log import JOINTS, conjugate, quaternion_product
 from tandemlift.core.types import Array
 from tandemlift.missions import SensorsTable
 

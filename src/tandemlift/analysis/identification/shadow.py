@@ -16,8 +16,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from tandemlift.analysis.identification.checks import check_log
-from tandemlift.analysis.identification.log import (
+from tandemlift.analysis.identification.windows import check_columns
+from tandemlift.analysis.linearization.loop_margins import UNROUNDED
+from tandemlift.analysis.logs.checks import check_log
+from tandemlift.analysis.logs.log import (
     COMMANDS,
     FLOWN_COMMANDS,
     IMU,
@@ -29,8 +31,6 @@ from tandemlift.analysis.identification.log import (
     Log,
     sample_stamps,
 )
-from tandemlift.analysis.identification.windows import check_columns
-from tandemlift.analysis.linearization.loop_margins import UNROUNDED
 from tandemlift.core.errors import FlightWarning, InputError
 from tandemlift.core.types import Array, Progress, flat, leaves, unflat
 from tandemlift.missions import Mission, MissionLike, check, merge, mission_of, tables_of

@@ -13,10 +13,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.analysis.identification import log as logs
-from tandemlift.analysis.identification.checks import check_log
-from tandemlift.analysis.identification.clocks import GAP
-from tandemlift.analysis.identification.log import COMMANDS, IMU, JOINTS, MOTION, PUSH, SPEED_COMMANDS, Log, Stream
+from tandemlift.analysis.logs import log as logs
+from tandemlift.analysis.logs.checks import check_log
+from tandemlift.analysis.logs.clocks import GAP
+from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, PUSH, SPEED_COMMANDS, Log, Stream
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.engines.driven_vehicle import effect_floor

@@ -11,7 +11,8 @@ import numpy as np
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.types import Array, flat
 from tandemlift.missions import Mission
-from tandemlift.missions.mission import MissionTable
+from tandemlift.missions.facts import Facts
+from tandemlift.missions.mission import PARTS, MissionTable
 from tandemlift.parts.mechanics.push import SUPPORT
 from tandemlift.parts.rotors.rotor_lag import lag
 from tandemlift.simulation.plan import FlightPlan
@@ -47,11 +48,10 @@ def calm_time(mission: Mission) -> float:
 
     This is before the first push, fault, excitation or landing and before a person begins; else the mission's end.
     """
-    phases, person, end = mission.phases, mission.person, mission.mission.duration
+    phases, facts, end = mission.phases, Facts(mission), mission.mission.duration
     ends = [push.time - SUPPORT * push.sigma for push in mission.pushes] + [fault.time for fault in mission.faults]
     ends += [] if phases.land_start is None else [phases.land_start]
-    ends += [] if person.model == "none" else [person.start_time]
-    ends += [] if mission.excitation.model == "none" else [mission.excitation.begin]
+    ends += [facts.ask(part, part.begins) for part in PARTS if part.begins and facts.has(part)]
     hovers = phases.lift_start + phases.lift_duration
     return max(min([end, *(calm for calm in ends if calm > hovers)]), 0.0)
 

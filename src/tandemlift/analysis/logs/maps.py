@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, ValidationError
 
-from tandemlift.analysis.identification.log import MOTION, stream_channel
+from tandemlift.analysis.logs.log import MOTION, stream_channel
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.files import toml_tables
 from tandemlift.core.keys import Table

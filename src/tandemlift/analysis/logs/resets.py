@@ -15,9 +15,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.identification.checks import acceleration
-from tandemlift.analysis.identification.clocks import GAP, means_of
-from tandemlift.analysis.identification.log import IMU, MOTION, Log, Stream, conjugate, quaternion_product
+from tandemlift.analysis.logs.checks import acceleration
+from tandemlift.analysis.logs.clocks import GAP, means_of
+from tandemlift.analysis.logs.log import IMU, MOTION, Log, Stream, conjugate, quaternion_product
 from tandemlift.core.types import Array
 
 POSITION, VELOCITY, ATTITUDE = MOTION

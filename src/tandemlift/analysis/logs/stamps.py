@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.analysis.identification.clocks import GAP
-from tandemlift.analysis.identification.log import MOTION, PUSH, Log, Stream
+from tandemlift.analysis.logs.clocks import GAP
+from tandemlift.analysis.logs.log import MOTION, PUSH, Log, Stream
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 

@@ -18,9 +18,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.analysis.identification.checks import check_stamps
-from tandemlift.analysis.identification.clocks import GAP, synchronised
-from tandemlift.analysis.identification.log import IMU, MOTION, Log, Stream, log_of, quaternion_product
+from tandemlift.analysis.logs.checks import check_stamps
+from tandemlift.analysis.logs.clocks import GAP, synchronised
+from tandemlift.analysis.logs.log import IMU, MOTION, Log, Stream, log_of, quaternion_product
 from tandemlift.analysis.logs.maps import (
     FORMATS,
     OF_ALL,

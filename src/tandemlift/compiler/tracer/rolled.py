@@ -113,7 +113,7 @@ def loop_over(sets: Sets, count: int) -> Iterator[Loop]:
         yield Loop(sets, count, i if width == 1 else f.integer("mul", i, width))
 
 
-class Part(NamedTuple):
+class WrittenPart(NamedTuple):
     """A number, or a set of `size` numbers, to be written from number `first` on."""
 
     first: int
@@ -218,17 +218,17 @@ class Sets:
             else:
                 f.store(next(numbers), *place[:2])
 
-    def _parts(self, symbols: Sequence[Symbol]) -> Iterator[Part]:
+    def _parts(self, symbols: Sequence[Symbol]) -> Iterator[WrittenPart]:
         g, i = self.f.graph, 0
         while i < len(symbols):
             node = symbols[i].node
             source = g.args[node][0] if g.ops[node] == "get 0" else -1
             count = g.counts[source] if source >= 0 else 0
             whole = [s.node for s in symbols[i : i + count]] == [g.get(source, j) for j in range(count)]
-            yield Part(i, source, count) if count and whole else Part(i, node, 0)
+            yield WrittenPart(i, source, count) if count and whole else WrittenPart(i, node, 0)
             i += max(count if whole else 0, 1)
 
-    def _stays(self, part: Part, kind: str) -> bool:
+    def _stays(self, part: WrittenPart, kind: str) -> bool:
         g = self.f.graph
         return g.ops[part.node] == "in" and g.args[part.node] == (kind, part.first)
 

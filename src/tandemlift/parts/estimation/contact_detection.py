@@ -7,12 +7,17 @@ The contact ends once there is no force for a time, or once the part has moved a
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Iterator
+from typing import Literal, NamedTuple
 
 from tandemlift.core.algebra import chosen, maximum, sqrt, where
+from tandemlift.core.errors import CheckResult, refused
+from tandemlift.core.keys import NonNegative, Positive, Table, key
 from tandemlift.core.law import law
-from tandemlift.core.types import Number, PerQuadrotor
-from tandemlift.core.vector import ZERO, Absent, Vec3, apply, dot
+from tandemlift.core.low_pass import low_pass
+from tandemlift.core.part import Part
+from tandemlift.core.types import Number, PerQuadrotor, number
+from tandemlift.core.vector import ZERO, Absent, Vec3, apply, dot, each, spread, vec3
 from tandemlift.parts.contact.walls import NearWalls
 from tandemlift.parts.estimation.contact_evidence import (
     ContactDetector,
@@ -26,11 +31,21 @@ from tandemlift.parts.estimation.contact_evidence import (
     touching_part,
     with_means_of_now,
 )
-from tandemlift.parts.estimation.contact_map import BeamMatch, GuardMatch, beam_of, guards_matched, picked
+from tandemlift.parts.estimation.contact_map import (
+    BeamMatch,
+    GuardMatch,
+    TouchGeometry,
+    beam_of,
+    guards_matched,
+    picked,
+)
 from tandemlift.parts.estimation.push_estimate import PushEstimate, PushEstimator
 from tandemlift.parts.estimation.tare import SideForces
-from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.estimation.wrench.observation import WholeForce
+from tandemlift.parts.mechanics.rigid_body import State, inertia_value
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.sensors.sensors_table import SensorsTable
 
 DECISION_TIME = 0.015  # s of evidence, after which the part is reported
 RELEASE = 0.5  # of the threshold: below it, there is no contact
@@ -39,6 +54,40 @@ AWAY = 0.04  # m by which a part has moved away from a wall when the contact is 
 EXPLAINED_TIME = 0.5  # s after a contact, in which joints that disagree are explained by it
 HIGH = 0.2  # m above the ground: feet do not touch it in a landing
 TINY = 1e-12  # N²
+FAST = 80.0  # rad/s: 12 ms until half of a sudden force is seen; keeps 0.05 N of the noise of mission iris's sensors
+SLOW = 8.0  # rad/s, of the slow means: pushes and gusts change more slowly than a contact
+MARGIN = 0.06  # m: 30 ms at 1 m/s until a contact is detected, and an error of the position
+
+
+class ContactTable(Table, acts='contact.model = "on"'):
+    """`[contact]`: distinction of contact with a wall from a push and from a faulty sensor, and the reaction to it.
+
+    It needs `pilot.guidance = "interactive"`, `pilot.push` other than "truth", and rotors that push along body z alone,
+    as all do here. See docs/explanation/safety.md.
+    """
+
+    model: Literal["none", "on"] = key(
+        "none",
+        None,
+        "detection of contacts",
+        choices={
+            "none": "none: a guard that touches a wall looks like joints that disagree",
+            "on": "contacts are reported, and the reference is kept outside the wall (needs sensors)",
+        },
+    )
+    threshold: Positive = key(
+        1.0,
+        "N",
+        "smallest sudden force on a part that may be a contact",
+        source="chosen: twenty times its noise with the sensors of mission iris",
+    )
+    gap: NonNegative = key(0.06, "m", "distance by which the reference moves away from the wall", source="chosen")
+    recovery_time: NonNegative = key(
+        1.0, "s", "time after a contact for which the reference still does not cross its place", source="chosen"
+    )
+    hold_timeout: Positive = key(
+        10.0, "s", "time in contact, less time without, after which the vehicle lands", source="chosen"
+    )
 
 
 class ContactEstimate(NamedTuple):
@@ -233,6 +282,71 @@ def explained_push(m: ContactState, push: PushEstimate) -> PushEstimate:
     return push._replace(trusted=trusted, usable=push.force * (trusted * push.armed))
 
 
-def start_contact(k: ContactDetector) -> ContactState:
-    """The memory before the first step."""
-    return ContactState(start_evidence(k), NO_CONTACT, 0.0, 0.0, 1.0 + EXPLAINED_TIME)
+class ContactEstimateChannels(NamedTuple):
+    """The contact as estimated; `ContactEstimate` describes it."""
+
+    contact_part: Number
+    contact_force_estimate: Vec3
+    contact_point_estimate: Vec3
+    contact_along_beam: Number
+    contact_normal: Vec3
+    contact_rise_time: Number
+    contact_on_map: Number
+
+
+@law(absent="contact")
+def contact_channels(contact: ContactEstimate) -> ContactEstimateChannels:
+    """The channels of an estimated contact."""
+    return ContactEstimateChannels(
+        contact_part=contact.part,
+        contact_force_estimate=contact.force,
+        contact_point_estimate=contact.point,
+        contact_along_beam=contact.along,
+        contact_normal=contact.normal,
+        contact_rise_time=contact.rise,
+        contact_on_map=contact.on_map,
+    )
+
+
+def start_contact_detection(
+    table: ContactTable, vehicle: Vehicle, interval: float, *, joints: bool
+) -> tuple[ContactDetector, ContactState]:
+    """The detector of contacts, by joint sensors or motion, for the nominal vehicle, and its memory."""
+    payload, N = vehicle.payload, vehicle.count
+    geometry = TouchGeometry(
+        quadrotors=spread(vehicle.lever_arms),
+        guards=each(N)(*[number(q.guard_radius) for q in vehicle.quadrotors]),
+        payload=vec3(vehicle.origin),
+        half=0.0 if payload.span is None else 0.5 * payload.span,
+        radius=0.0 if payload.radius is None else payload.radius,
+        corners=spread([c for h in payload.hulls for c in vehicle.origin + h.corners]) if payload.hulls else Absent(),
+        margin=MARGIN,
+    )
+    whole = WholeForce(vehicle.mass, inertia_value(vehicle.inertia), -vec3(vehicle.payload_center))
+    detector = ContactDetector(
+        fast=low_pass(FAST, interval),
+        slow_rate=SLOW,
+        threshold=table.threshold,
+        mass=vehicle.mass,
+        geometry=geometry,
+        numbers=each(N)(*[float(i + 1) for i in range(N)]),
+        whole=Absent() if joints else whole,
+    )
+    return detector, ContactState(start_evidence(detector), NO_CONTACT, 0.0, 0.0, 1.0 + EXPLAINED_TIME)
+
+
+def contact_checks(table: ContactTable, guidance: str, sensors: SensorsTable, push: str) -> Iterator[CheckResult]:
+    """Check for a detection without interactive guidance or joints; `push`: `pilot.push`."""
+    if table.model == "none":
+        return
+    if guidance != "interactive":
+        yield refused('contact.model = "on": must be "none" where pilot.guidance is "scheduled"')
+    if sensors.model == "none" or push == "truth":
+        yield refused('contact.model = "on": must be "none" where the pilot reads no joints (pilot.push = "truth")')
+
+
+CONTACT = Part(
+    *("contact", "estimators", "contact", ContactTable.acts, start_contact_detection),
+    refusals=contact_checks,
+    channels=ContactEstimateChannels,
+)

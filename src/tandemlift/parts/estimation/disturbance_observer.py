@@ -18,7 +18,7 @@ The model includes the measured push of the person, so that is no disturbance.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -28,8 +28,9 @@ from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.keys import BELIEVED, TRIAL, NonNegative, Positive, Positive3, Table, key
 from tandemlift.core.law import elementwise, law
 from tandemlift.core.low_pass import LowPass, LowPassState, low_pass, low_pass_step
+from tandemlift.core.part import Part, channels_of
 from tandemlift.core.types import GRAVITY, Number, PerRotor
-from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, vec3
+from tandemlift.core.vector import ZERO, Mat3, Vec3, vec3
 from tandemlift.parts.mechanics.rigid_body import (
     UP,
     InitialTable,
@@ -213,21 +214,10 @@ def _follower(bandwidth: Iterable[float], slope: Iterable[float], linear: bool, 
 
 
 def start_observer(
-    o: ObserverTable, vehicle: Vehicle, effect: Mixer, step: float, initial: InitialTable, *, hovers: bool
-) -> tuple[DisturbanceObserver, ObserverState] | tuple[Absent, Absent]:
-    """The observer before its first sample, and its memory; or `Absent`.
-
-    Args:
-        o: `[observer]`.
-        vehicle: the nominal one.
-        effect: of its rotors.
-        step: sampling time [s].
-        initial: the state at the start.
-        hovers: whether the rotors have their hover speed at the start.
-    """
-    if o.model == "none":
-        return Absent(), Absent()
-    linear, inertia = o.model == "extended-state", vehicle.inertia
+    table: ObserverTable, vehicle: Vehicle, effect: Mixer, step: float, initial: InitialTable, *, hovers: bool
+) -> tuple[DisturbanceObserver, ObserverState]:
+    """The observer before its first sample, and its memory; `effect` of the rotors, and whether they hover first."""
+    o, linear, inertia = table, table.model == "extended-state", vehicle.inertia
     rotors = low_pass(2.0 / (o.rotor_lag + o.rotor_delay + step), step)
     observer = DisturbanceObserver(
         mass=vehicle.mass,
@@ -254,3 +244,25 @@ def observer_checks(table: ObserverTable, method: str) -> Iterator[CheckResult]:
             f'observer.model = "{table.model}": must be "none" unless allocation.method is "constrained", '
             "which gives it the possible thrusts of the rotors"
         )
+
+
+class DisturbanceChannels(NamedTuple):
+    """The estimate of a disturbance observer, and its error."""
+
+    disturbance_force: Vec3
+    disturbance_moment: Vec3
+    disturbance_residual: Vec3
+    disturbance_angular_residual: Vec3
+
+
+@channels_of.register(DisturbanceObserver)
+def _channels(k: DisturbanceObserver, memory: Any, decision: Any) -> DisturbanceChannels:
+    return DisturbanceChannels(*decision.disturbance)
+
+
+OBSERVER = Part(
+    *("observer", "pilot", "observer", 'observer.model = "super-twisting" or "extended-state"', start_observer),
+    refusals=observer_checks,
+    channels=DisturbanceChannels,
+    logged="disturbance",
+)

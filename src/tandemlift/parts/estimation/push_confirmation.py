@@ -17,6 +17,7 @@ from tandemlift.core.algebra import maximum, minimum, sqrt, where
 from tandemlift.core.arrays import array
 from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.low_pass import LowPass, LowPassState, low_pass, low_pass_step
+from tandemlift.core.part import Part
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, each, vec3
 from tandemlift.parts.estimation.confirmed_part import TINY, Zero, compared
@@ -191,40 +192,33 @@ def _wind_ratios(vehicle: Vehicle) -> list[Number]:
 
 
 def start_confirmation(
-    e: EstimatorTable,
+    table: EstimatorTable,
     vehicle: Vehicle,
-    step: float,
+    interval: float,
     *,
     threshold: tuple[float, float, float],
     moment_threshold: float,
     limited: bool,
-) -> tuple[PushConfirmation, ConfirmationState] | tuple[Absent, Absent]:
-    """The confirmation of pushes by the nominal vehicle, and its memory; or `Absent`.
-
-    Args:
-        e: `[estimator]`.
-        vehicle: the nominal one.
-        step: sampling time [s].
-        threshold: force [N] along each axis above which a push is followed.
-        moment_threshold: moment [N·m] above which a push rotates the vehicle.
-        limited: whether the allocation knows the limits of the rotors, and so their thrusts.
-    """
-    if e.confirmation == "none" or e.wrench != "joints":
-        return Absent(), Absent()
+) -> tuple[PushConfirmation, ConfirmationState]:
+    """The confirmation of pushes by the nominal vehicle, and its memory; `limited`: whether its thrusts are known."""
     x, y, z, about_z = [maximum(bound * TOLERANCE, TINY) for bound in (*threshold, moment_threshold)]
     side = minimum(x, y)  # body axes rotate with the heading
     heavier = vehicle.payload.mass / (vehicle.mass - vehicle.payload.mass)
-    margin = MARGIN if e.wind_compensation == "none" else 0.0
-    rotors, speeds = rotor_model(vehicle, step) if limited else (Absent(), Absent())
+    margin = MARGIN if table.wind_compensation == "none" else 0.0
+    rotors, speeds = rotor_model(vehicle, interval) if limited else (Absent(), Absent())
     confirmation = PushConfirmation(
         rotors=rotors,
         tolerance=Vec3(side, side, z),
         moment_tolerance=about_z,
         ratio=vec3([maximum(ratio * margin, heavier) for ratio in _wind_ratios(vehicle)]),
         inertia=inertia_value(vehicle.inertia),
-        low_pass=low_pass(BANDWIDTH, step),
+        low_pass=low_pass(BANDWIDTH, interval),
     )
     force, turning = LowPassState(ZERO, ZERO), LowPassState(0.0, 0.0)
     return confirmation, ConfirmationState(
         speeds, force, turning, Zero(ZERO, ZERO, force, ZERO, ZERO), Zero(0.0, 0.0, turning, 0.0, 0.0)
     )
+
+
+CONFIRMS = 'estimator.confirmation = "motion" and estimator.wrench = "joints"'
+CONFIRMATION = Part("confirmation", "estimators", "estimator", CONFIRMS, start_confirmation)

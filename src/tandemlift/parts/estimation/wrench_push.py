@@ -201,13 +201,8 @@ def start_wrench_push(
 ) -> tuple[WrenchPush, WrenchPushState]:
     """The estimator of pushes by `estimator.wrench`, and its memory.
 
-    Args:
-        e: `[estimator]`.
-        s: `[sensors]`, whose noise the observer may use.
-        vehicle: the nominal one.
-        interval: of the IMU [s].
-        late: delay of the rotors, as the pilot believes, and of the IMU [s].
-        floor: height z of a floor with ground effect [m], or None.
+    `late`: delay of the rotors, as the pilot believes, and of the IMU [s]; `floor`: height z of one with ground effect
+    [m], or None.
     """
     scale, motion = noise_scale(s, interval), s.motion
     noise = SampleNoise(

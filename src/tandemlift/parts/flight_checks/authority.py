@@ -14,7 +14,6 @@ import numpy as np
 
 from tandemlift.core.errors import CLOSE, FAILS, CheckResult, judged, refused, warned
 from tandemlift.parts.flight_checks.hover_loads import ALWAYS, Loads, VehicleLoads
-from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.hover import CONTROL, HoverFacts
 
 AXES = ("roll", "pitch", "yaw")
@@ -24,7 +23,7 @@ CLOCKED = 0.95  # of the largest thrust that a flight with scheduled guidance ma
 
 
 def authority_checks(
-    hover: HoverFacts, loads: Loads, by_hand: float | None, tilt: float | None, lifting: float | None
+    hover: HoverFacts, loads: Loads, by_hand: float | None, tilt: float | None
 ) -> Iterator[CheckResult]:
     """Checks of thrust, tilt and moments of real rotors; none for ideal ones.
 
@@ -33,7 +32,6 @@ def authority_checks(
         loads: on it, of which at least one lasts.
         by_hand: `compliance.thrust_fraction` of interactive guidance; None if scheduled.
         tilt: largest tilt of the controller [rad]; None without a limit.
-        lifting: `supervision.checks.thrust_fraction` of a supervised flight; None without supervision.
     """
     if hover.actuators.model != "rotors":
         return
@@ -45,8 +43,6 @@ def authority_checks(
     yield from moment_checks(hover, loads)
     if by_hand is not None:
         yield from push_checks(hover)
-    if lifting is not None:
-        yield supervised_check(hover.vehicle, lifting)
 
 
 def _at(when: str) -> str:
@@ -66,16 +62,6 @@ def thrust_check(hover: HoverFacts, loads: Loads, by_hand: float | None) -> Chec
         f"{limit:.3g} N: {then}; lower the masses, plant.mass_scale or the load, or raise the rotors' max_speed"
     )
     return judged("thrust", needed, limit, "N", text, subject=worst.when, near=0.05)
-
-
-def supervised_check(vehicle: Vehicle, fraction: float) -> CheckResult:
-    """Compare the weight that the pilot assumes with its limit for a lift."""
-    limit = fraction * vehicle.max_thrust
-    text = (
-        f"the vehicle weighs {vehicle.weight:.3g} N, and supervision.checks.thrust_fraction = {fraction:g} of its "
-        f"rotors' {vehicle.max_thrust:.3g} N is {limit:.3g} N: the lift is refused; raise it, or lower the masses"
-    )
-    return judged("supervised lift", vehicle.weight, limit, "N", text)
 
 
 def tilt_check(hover: HoverFacts, loads: Loads, tilt: float | None) -> CheckResult:

@@ -14,8 +14,6 @@ from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.guidance.admittance import AdmittanceTable
 from tandemlift.parts.guidance.compliance_table import ComplianceTable
 from tandemlift.parts.mechanics.push import PushTable
-from tandemlift.parts.mechanics.turbulence import FOOT, HIGHEST, LOWEST
-from tandemlift.parts.mechanics.wind import WindTable
 from tandemlift.parts.rotors.hover import HoverFacts
 
 STEEPEST = 1.875  # of the quintic smooth step: its largest slope
@@ -171,14 +169,3 @@ def phase_warnings(p: PhasesTable) -> Iterator[CheckResult]:
     lifted = p.lift_start + p.lift_duration
     if p.height and p.land_start is not None and p.land_start < lifted:
         yield warned(f"phases.land_start = {p.land_start} is before the lift ends at {lifted:g} s: it is cut short")
-
-
-def wind_warnings(w: WindTable) -> Iterator[CheckResult]:
-    """Check for turbulence at a height outside the standard."""
-    lowest, highest = LOWEST * FOOT, HIGHEST * FOOT
-    held = min(max(w.height, lowest), highest)
-    if w.model == "air" and w.turbulence and abs(held - w.height) > 1e-6 * held:
-        yield warned(
-            f"wind.height = {w.height}: MIL-F-8785C gives the turbulence from {lowest:g} m to {highest:g} m; "
-            f"that of {held:g} m blows"
-        )

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from tandemlift.core.algebra import clip
 from tandemlift.core.law import law
+from tandemlift.core.part import Part
 from tandemlift.core.types import Number
 from tandemlift.parts.guidance.compliance import Compliance, with_speed
 
@@ -34,3 +35,9 @@ def above_ground(k: GroundClearance, compliance: Compliance, height: Number) -> 
     speed, down = compliance.limits.speed, compliance.limits.speed_back
     slower = clip(APPROACH_GAIN * (height - k.height), 0.0, down.z)
     return with_speed(compliance, speed, down._replace(z=slower))
+
+
+CLEARANCE = Part(
+    *("clearance", "guidance", "compliance.min_height", 'ground.model = "floor"', lambda table: GroundClearance(table)),
+    remembers=False,
+)

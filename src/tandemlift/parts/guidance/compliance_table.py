@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from tandemlift.core.keys import TRIAL, Bandwidth, Delay, Fraction, NonNegative, Positive, Positive3, Table, Tilt, key
 from tandemlift.core.low_pass import low_pass
+from tandemlift.core.part import Started
 from tandemlift.core.vector import Absent, Vec3, vec3
-from tandemlift.parts.guidance.admittance import Admittance
+from tandemlift.parts.guidance.admittance import AdmittanceTable, admittance_from
 from tandemlift.parts.guidance.alternation import Alternation
 from tandemlift.parts.guidance.compliance import AssumedPayload, Compliance, MotionLimits, PushFilters
 from tandemlift.parts.guidance.energy_tank import TankTable
 from tandemlift.parts.guidance.following import FollowingTable
-from tandemlift.parts.guidance.policy import PolicyTable, start_policy
+from tandemlift.parts.guidance.policy import PolicyTable
 from tandemlift.parts.guidance.yaw_compliance import YawTable
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
 class ComplianceTable(Table, acts='pilot.guidance = "interactive"'):
@@ -91,34 +93,34 @@ class ComplianceTable(Table, acts='pilot.guidance = "interactive"'):
     policy: PolicyTable = PolicyTable()
 
 
-def push_filters(c: ComplianceTable, step: float) -> PushFilters:
+def push_filters(compliance: ComplianceTable, step: float) -> PushFilters:
     """The filters of a push, sampled every `step` [s]."""
+    c = compliance
     before, after = low_pass(c.input_bandwidth, step), low_pass(c.output_bandwidth, step)
     return PushFilters(before, after, c.release_fraction, c.dwell, c.bias_time_constant)
 
 
 def compliance_from(
-    c: ComplianceTable,
-    push: PushFilters,
-    admittance: Admittance,
-    threshold: Vec3,
-    payload: float,
+    started: Started,
+    compliance: ComplianceTable,
+    admittance: AdmittanceTable,
+    push_filters: PushFilters,
+    vehicle: Vehicle,
     alternation: Alternation,
 ) -> Compliance:
-    """The compliance around an admittance; pushes below the threshold [N] are ignored. `payload`: assumed mass [kg]."""
-    speed = vec3(c.max_speed)
-    limits = MotionLimits(speed, speed, vec3(c.max_acceleration), vec3(c.max_jerk), c.braking_gain)
+    """The compliance around an admittance."""
+    c, speed, parts = compliance, vec3(compliance.max_speed), started("compliance")[0]
     return Compliance(
-        input_filter=push.input,
-        band=push.dead_band(threshold),
-        output_filter=push.output,
-        admittance=admittance,
-        limits=limits,
+        input_filter=push_filters.input,
+        band=push_filters.dead_band(vec3(admittance.threshold)),
+        output_filter=push_filters.output,
+        admittance=admittance_from(admittance),
+        limits=MotionLimits(speed, speed, vec3(c.max_acceleration), vec3(c.max_jerk), c.braking_gain),
         force_lead=_lead(c.force_lead, c.vertical_force_lead),
         reference_lead=_lead(c.reference_lead, c.vertical_reference_lead),
-        payload=AssumedPayload(payload) if c.mass_feedforward else Absent(),
-        policy=start_policy(c.policy, admittance.damping),
+        payload=AssumedPayload(vehicle.payload.mass) if c.mass_feedforward else Absent(),
         alternation=alternation,
+        **parts,
     )
 
 

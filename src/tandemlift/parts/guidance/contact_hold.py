@@ -14,10 +14,11 @@ from typing import NamedTuple
 
 from tandemlift.core.algebra import chosen, maximum, minimum, sqrt, where
 from tandemlift.core.law import choice, law
+from tandemlift.core.part import Part
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Absent, Vec3, apply_transposed, cross, dot
-from tandemlift.parts.estimation.contact_detection import NO_CONTACT, ContactEstimate
-from tandemlift.parts.estimation.contact_table import ContactTable
+from tandemlift.parts.estimation.contact_detection import NO_CONTACT, ContactEstimate, ContactTable
+from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.guidance.compliance import ComplianceState, moved_towards, within
 from tandemlift.parts.guidance.guidance import LoadOfWall, PilotInput
 from tandemlift.parts.guidance.phases import PhaseBounds
@@ -230,11 +231,10 @@ def start_reaction() -> ContactReactionState:
     return ContactReactionState(0.0, ZERO, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, HandWrench(ZERO, ZERO))
 
 
-def start_contact_hold(
-    table: ContactTable, wrench: str
-) -> tuple[ContactReaction, ContactReactionState] | tuple[Absent, Absent]:
-    """The reaction to contacts and its memory before the first sample, or `Absent`; `wrench`: `estimator.wrench`."""
-    if table.model == "none":
-        return Absent(), Absent()
-    whole = Absent() if wrench == "joints" else InPush()
+def start_contact_hold(table: ContactTable, estimator: EstimatorTable) -> tuple[ContactReaction, ContactReactionState]:
+    """The reaction to contacts before the first sample, and its memory."""
+    whole = Absent() if estimator.wrench == "joints" else InPush()
     return ContactReaction(table.gap, table.recovery_time, table.hold_timeout, whole), start_reaction()
+
+
+CONTACT_HOLD = Part("contact", "guidance", "contact", ContactTable.acts, start_contact_hold)

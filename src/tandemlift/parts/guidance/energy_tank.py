@@ -16,8 +16,9 @@ from typing import Literal, NamedTuple
 from tandemlift.core.algebra import clip, maximum
 from tandemlift.core.keys import NonNegative, Positive, Table, key
 from tandemlift.core.law import law
-from tandemlift.core.types import Number
-from tandemlift.core.vector import Absent, Vec3, dot
+from tandemlift.core.part import Part
+from tandemlift.core.types import Number, filled
+from tandemlift.core.vector import Vec3, dot
 
 
 class TankTable(Table, acts='compliance.tank.model = "tank"'):
@@ -68,10 +69,9 @@ def passivity_damping(
     return k.max_damping * added, EnergyTankState(energy, added)
 
 
-def start_tank(table: TankTable) -> tuple[EnergyTank, EnergyTankState] | tuple[Absent, Absent]:
-    """The tank, filled, or `Absent`."""
-    if table.model == "none":
-        return Absent(), Absent()
-    decay_rate = 1.0 / table.fade_time
-    tank = EnergyTank(table.capacity, table.low_energy, table.max_damping, table.refill_fraction, decay_rate)
-    return tank, EnergyTankState(table.capacity, 0.0)
+def start_tank(table: TankTable) -> tuple[EnergyTank, EnergyTankState]:
+    """The tank, filled."""
+    return filled(EnergyTank, table, decay_rate=1.0 / table.fade_time), EnergyTankState(table.capacity, 0.0)
+
+
+TANK = Part("tank", "guidance", "compliance.tank", TankTable.acts, start_tank)

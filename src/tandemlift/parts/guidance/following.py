@@ -9,13 +9,16 @@ higher priority. A vehicle that has lost its heading rotates faster and faster, 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from tandemlift.core.algebra import absolute, maximum, minimum, tan, where
+from tandemlift.core.findings import Finding, finding
 from tandemlift.core.keys import NonNegative, Positive, Table, key
 from tandemlift.core.law import law
+from tandemlift.core.part import Part
 from tandemlift.core.phases import REASONS
-from tandemlift.core.types import Number
+from tandemlift.core.types import Number, filled
 from tandemlift.core.vector import Vec3, dot
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
@@ -145,14 +148,21 @@ HEADING_FRACTION = 0.9  # of the angle by which the reference heading may lead, 
 
 
 def start_following(
-    table: FollowingTable, vehicle: Vehicle, max_tilt: Number, max_lead_angle: Number
-) -> FollowingLimits:
-    """The limits of a vehicle with a largest tilt [rad], and a largest lead of the reference heading [rad]."""
-    return FollowingLimits(
-        side_force=tan(max_tilt) * vehicle.weight,
-        heading_error=HEADING_FRACTION * max_lead_angle,
-        position_error=table.max_error,
-        time=table.time,
-        recovery_time=table.recovery_time,
-        heading_timeout=table.heading_timeout,
-    )
+    table: FollowingTable, vehicle: Vehicle, guidance_tilt: Number, max_lead_angle: Number
+) -> tuple[FollowingLimits, FollowingState]:
+    """The limits, with a largest tilt [rad] and a largest lead of the reference heading [rad], and the memory."""
+    force, lost = tan(guidance_tilt) * vehicle.weight, HEADING_FRACTION * max_lead_angle
+    errors = {"heading_error": lost, "position_error": table.max_error}
+    return filled(FollowingLimits, table, side_force=force, **errors), AT_REST
+
+
+def following_findings(m: FollowingState, table: FollowingTable) -> Iterator[Finding]:
+    """The finding of a vehicle that could not follow, with the most urgent reason."""
+    if m.most_urgent:
+        reason = REASONS[int(m.most_urgent) - 1]
+        lands = ", so that it lands" if m.longest_lost > table.heading_timeout else ""
+        text = f"the vehicle cannot follow: {reason.text}, for {m.lasted:.3g} s{lands}"
+        yield finding("cannot-follow", text, time=m.first, duration=m.lasted, quantity=reason.text)
+
+
+FOLLOWING = Part("following", "guidance", "compliance.following", "", start_following, findings=following_findings)

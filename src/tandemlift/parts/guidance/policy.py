@@ -22,8 +22,10 @@ from tandemlift.core.errors import CheckResult, InputError, refused
 from tandemlift.core.keys import AtLeastOne, Table, key
 from tandemlift.core.law import law
 from tandemlift.core.low_pass import LowPassState
+from tandemlift.core.part import Part
 from tandemlift.core.types import Number, NumberSet
 from tandemlift.core.vector import Absent, Vec3, dot, each
+from tandemlift.parts.guidance.admittance import AdmittanceTable
 
 INPUTS, OUTPUTS = 6, 2
 SMALLEST = INPUTS + 1 + 2 * OUTPUTS  # numbers, of one hidden unit
@@ -156,28 +158,17 @@ def dissipated_with(eased: Vec3, power: Number, velocity: Vec3) -> Number:
     return power - dot(eased, velocity)
 
 
-def start_policy(table: PolicyTable, damping: Sequence[float]) -> Policy | Absent:
-    """The policy around the damping of an admittance [N s/m], or `Absent`."""
-    if table.model == "none":
-        return Absent()
+def start_policy(table: PolicyTable, admittance: AdmittanceTable) -> Policy:
+    """The policy around the damping of an admittance."""
     weights = SHIPPED if table.weights is None else table.weights
     cut = len(weights) // (INPUTS + 1 + OUTPUTS) * (INPUTS + 1)
     hidden, outputs = (each(len(part))(*part) for part in (weights[:cut], weights[cut:]))
-    return Policy(hidden, outputs, math.log(table.factor), Vec3(*map(math.sqrt, damping)))
+    root = Vec3(*map(math.sqrt, admittance.damping))
+    return Policy(hidden, outputs, math.log(table.factor), root)
 
 
-def policy_checks(
-    table: PolicyTable, mass: Sequence[float], damping: Sequence[float], guidance: str, step: float
-) -> Iterator[CheckResult]:
-    """Check for a policy without effect, of another size, or whose largest damping is unstable when sampled.
-
-    Args:
-        table: of the policy.
-        mass: of the admittance [kg].
-        damping: of the admittance [N s/m].
-        guidance: `pilot.guidance`.
-        step: of the pilot [s].
-    """
+def policy_checks(table: PolicyTable, admittance: AdmittanceTable, guidance: str, step: float) -> Iterator[CheckResult]:
+    """Check for a policy without effect, of another size, or whose largest damping is unstable when sampled."""
     if table.weights is not None:
         count, beyond = len(table.weights), [w for w in table.weights if abs(w) > LARGEST]
         if count < SMALLEST or (count - OUTPUTS) % (INPUTS + 1 + OUTPUTS):
@@ -188,8 +179,17 @@ def policy_checks(
         return
     if guidance != "interactive":
         yield refused('compliance.policy.model = "network": must be "none" where pilot.guidance is "scheduled"')
-    most = min((2.0 * m / (step * c) for m, c in zip(mass[:2], damping[:2], strict=True) if c > 0.0), default=math.inf)
+    horizontal = zip(admittance.mass[:2], admittance.damping[:2], strict=True)
+    most = min((2.0 * m / (step * c) for m, c in horizontal if c > 0.0), default=math.inf)
     if table.factor > most:
         yield refused(
             f"compliance.policy.factor = {table.factor:g}: must be at most {most:.4g}, or sampling is unstable"
         )
+
+
+POLICY = Part(
+    *("policy", "compliance", "compliance.policy", PolicyTable.acts, start_policy),
+    remembers=False,
+    refusals=policy_checks,
+    channels=PolicyChannels,
+)

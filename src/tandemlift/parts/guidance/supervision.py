@@ -7,20 +7,31 @@ lasts too long; a landing and a stop are final.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from collections.abc import Iterator
+from typing import Any, Literal, NamedTuple
 
-from tandemlift.core.algebra import maximum, where
+from pydantic import create_model
+
+from tandemlift.core.algebra import cos, maximum, where
+from tandemlift.core.errors import CheckResult, judged, refused, shown
+from tandemlift.core.faults import ALARM_TEXTS, CHECKS, FAULTS, REACTION_MEANINGS, REACTIONS, Fault, Reaction
+from tandemlift.core.findings import Finding, finding
+from tandemlift.core.keys import NonNegative, Positive, Table, key
 from tandemlift.core.law import elementwise, law
-from tandemlift.core.phases import HOLD, IDLE, STOPPED
-from tandemlift.core.types import Number, NumberSet, PerRotor
-from tandemlift.core.vector import Absent, Vec3, total
+from tandemlift.core.part import FlightCheck, Part
+from tandemlift.core.phases import HOLD, IDLE, LAND, LIFT, STOPPED
+from tandemlift.core.types import Number, NumberSet, PerRotor, filled
+from tandemlift.core.vector import Absent, Vec3, set_of, total, vec3
 from tandemlift.parts.guidance.fault_detection import (
     HOLDS,
     LANDS,
+    NO_TIME,
     STOPS,
     ActiveFaults,
     FaultReaction,
     Fence,
+    FenceTable,
+    LimitsTable,
     LimitTimers,
     SupervisionLimits,
     active_faults,
@@ -31,17 +42,68 @@ from tandemlift.parts.guidance.fault_detection import (
 from tandemlift.parts.guidance.guidance import PilotInput
 from tandemlift.parts.guidance.phases import PhaseBounds, PhaseState
 from tandemlift.parts.guidance.preflight_checks import (
+    ChecksTable,
     PreflightChecks,
     SensorStatus,
     failed_guidance_check,
     failed_lift_check,
     sensor_status,
 )
-from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rigid_body import InitialTable, State
+from tandemlift.parts.mechanics.rotation import quaternion_from_euler
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.rotors.allocation import thrust_limits
+from tandemlift.parts.rotors.hover import HoverFacts
 from tandemlift.parts.rotors.rotor_faults import RotorFaults, efficiency_at
+from tandemlift.parts.sensors.sensors_table import SensorsTable
+from tandemlift.parts.sensors.watchdog import WatchTable
 
 TOUCHDOWN_TIME = 0.2  # s, after which a vehicle above its landing's reference is assumed to stand on something
 CONTACT, PHASE, ALARM = 1e8, 1e6, 1e2  # factors in the code of an event: contact, phase, alarm, failed check
+
+
+def _reaction(fault: Fault) -> Any:
+    """The key of a fault in `[supervision.reactions]`."""
+    return key(fault.reaction, None, f"reaction when {fault.condition}", choices=REACTION_MEANINGS)
+
+
+_REACTION_KEYS: dict[str, Any] = {fault.key: (Reaction, _reaction(fault)) for fault in FAULTS}
+
+
+class ReactionsTable(create_model("Reactions", __base__=Table, **_REACTION_KEYS)):  # type: ignore[misc]
+    """`[supervision.reactions]`: the reaction to each fault, in the order of their priority."""
+
+
+class SupervisionTable(Table, acts='supervision.model = "on"'):
+    """`[supervision]`: checks, watchdogs, limits and reactions in flight; see docs/explanation/safety.md."""
+
+    model: Literal["none", "on"] = key(
+        "none",
+        None,
+        "model of the supervision",
+        choices={"none": "no supervision", "on": 'all of it (needs `pilot.guidance = "interactive"`)'},
+    )
+    hold_timeout: Positive = key(
+        5.0, "s", "time for which a fault may hold the vehicle before it lands", source="chosen"
+    )
+    recovery_time: Positive = key(1.0, "s", "time without a fault after which a hold ends", source="chosen")
+    blind_descent_depth: NonNegative = key(
+        0.5, "m", "distance below the ground at which a landing with unknown height ends", source="chosen"
+    )
+    touchdown_gap: Positive = key(
+        0.12,
+        "m",
+        "height above a landing's reference at which the vehicle must be standing on something",
+        source="chosen",
+    )
+    blind_descent_acceleration: NonNegative = key(
+        0.2, "m/s²", "downward acceleration of a landing with unknown motion", source="chosen"
+    )
+    checks: ChecksTable = ChecksTable()
+    watchdog: WatchTable = WatchTable()
+    fence: FenceTable = FenceTable()
+    limits: LimitsTable = LimitsTable()
+    reactions: ReactionsTable = ReactionsTable()
 
 
 class Supervision(NamedTuple):
@@ -234,3 +296,131 @@ def finish_supervision(
     now = contact * CONTACT + phase.phase * PHASE + m.alarm * ALARM
     events = with_event(k, m.events, now, failed_check, t)
     return SupervisionChannels(m.alarm, failed_check), m._replace(reference=reference, events=events)
+
+
+def start_supervision(
+    table: SupervisionTable, vehicle: Vehicle, initial: InitialTable, known: RotorFaults | Absent
+) -> tuple[Supervision, SupervisionState]:
+    """The supervision before its first sample, and its memory; `known`: the known rotor faults."""
+    c, b, w, fence, payload = table.checks, table.limits, table.watchdog, table.fence, vehicle.payload.mass
+    low, high = payload * c.min_payload_ratio, payload * c.max_payload_ratio
+    upright = {"thrust": b.thrust_fraction, "min_upright": cos(b.tilt), "invalid_state_time": w.invalid_time}
+    supervision = filled(
+        Supervision,
+        table,
+        mass=vehicle.mass,
+        payload=payload,
+        limits=thrust_limits(vehicle),
+        known=known,
+        checks=filled(PreflightChecks, c, min_upright=cos(c.tilt), min_payload=low, max_payload=high),
+        fence=Fence(vec3(fence.low), vec3(fence.high), fence.margin, fence.braking_gain),
+        bounds=filled(SupervisionLimits, b, w, table, **upright),
+        reactions=ActiveFaults(**{name: float(REACTIONS.index(r)) for name, r in table.reactions}),
+        slots=set_of([float(slot) for slot in range(SLOTS)]),
+    )
+    at, empty = vec3(initial.position), set_of([0.0] * SLOTS)
+    state = State(at, vec3(initial.velocity), quaternion_from_euler(vec3(initial.euler)), vec3(initial.rates))
+    return supervision, SupervisionState(
+        reaction=0.0,
+        alarm=0.0,
+        hold_time=0.0,
+        fault_free_time=0.0,
+        timers=NO_TIME,
+        state=state,
+        reference=at,
+        failed_lift_check=0.0,
+        failed_guidance_check=0.0,
+        events=EventLog(empty, empty, 0.0, 0.0, 0.0),
+        fault=0.0,
+        lift_check=0.0,
+        payload=vehicle.payload.mass,
+    )
+
+
+def supervision_refusals(
+    table: SupervisionTable, guidance: str, sensors: SensorsTable, step: float
+) -> Iterator[CheckResult]:
+    """Refusals without interactive guidance, of limits that exclude each other, and watchdogs between two samples."""
+    if table.model == "none":
+        return
+    if guidance != "interactive":
+        yield refused('supervision.model = "on": must be "none" where pilot.guidance is "scheduled"')
+    fence, checks = table.fence, table.checks
+    if any(low >= high for low, high in zip(fence.low, fence.high, strict=True)):
+        yield refused(
+            f"supervision.fence.low = {shown(fence.low)}: must be below supervision.fence.high = "
+            f"{shown(fence.high)} along each axis"
+        )
+    if checks.min_payload_ratio >= checks.max_payload_ratio:
+        most = f"supervision.checks.max_payload_ratio = {checks.max_payload_ratio}"
+        yield refused(f"supervision.checks.min_payload_ratio = {checks.min_payload_ratio}: must be below {most}")
+    intervals = {"sensors.interval": sensors.interval, "sensors.motion.interval": sensors.motion.interval}
+    for name in ("stale_time", "invalid_time"):
+        for sensor, interval in intervals.items():
+            if getattr(table.watchdog, name) <= max(interval, step):
+                given = f"supervision.watchdog.{name} = {getattr(table.watchdog, name)}"
+                yield refused(f"{given}: must be longer than {sensor} = {interval}, and than mission.step")
+
+
+def supervision_checks(table: SupervisionTable, hover: HoverFacts) -> Iterator[CheckResult]:
+    """Compare the weight that the pilot assumes with its limit for a lift, of real rotors."""
+    vehicle, fraction = hover.vehicle, table.checks.thrust_fraction
+    limit = fraction * vehicle.max_thrust
+    text = (
+        f"the vehicle weighs {vehicle.weight:.3g} N, and supervision.checks.thrust_fraction = {fraction:g} of its "
+        f"rotors' {vehicle.max_thrust:.3g} N is {limit:.3g} N: the lift is refused; raise it, or lower the masses"
+    )
+    if hover.actuators.model == "rotors":
+        yield judged("supervised lift", vehicle.weight, limit, "N", text)
+
+
+EventCode = tuple[int, int, int, int]  # phase, alarm, failed check, contact
+
+
+def supervision_events(m: SupervisionState | Absent) -> list[tuple[float, EventCode]]:
+    """Time [s] and content of the last events of the supervision, in the order of time; none without supervision."""
+    if isinstance(m, Absent):
+        return []
+    log = m.events
+    kept = [(t, _event(code)) for t, code in zip(log.time, log.code, strict=True)]
+    oldest = int(log.count) - SLOTS
+    return kept[oldest:] + kept[:oldest] if oldest >= 0 else kept[: int(log.count)]
+
+
+def _event(code: float) -> EventCode:
+    return int(code % CONTACT // PHASE), int(code % PHASE // ALARM), int(code % ALARM), int(code // CONTACT)
+
+
+def supervision_findings(m: SupervisionState) -> Iterator[Finding]:
+    """Findings of landings because of a fault, and of a lift that was refused."""
+    before: float = IDLE
+    refusal = None
+    for t, (phase, alarm, check, _) in supervision_events(m):
+        if phase in (LAND, STOPPED) and phase != before and alarm:
+            cause, did = ALARM_TEXTS[alarm], "landed" if phase == LAND else "stopped its rotors"
+            yield finding("landed-by-fault", f"{did} because of a fault: {cause}", time=t, quantity=cause)
+        refusal = (t, check) if phase == IDLE and check else None if phase == LIFT else refusal
+        before = phase
+    if refusal:
+        text = CHECKS[refusal[1] - 1].text
+        yield finding("lift-refused", f"a lift was refused: {text}", time=refusal[0], quantity=text)
+
+
+SUPERVISION = Part(
+    *("supervision", "guidance", "supervision", SupervisionTable.acts, start_supervision),
+    refusals=supervision_refusals,
+    checks=supervision_checks,
+    rows=(
+        FlightCheck(
+            "supervised lift",
+            "weight that the pilot assumes",
+            "`supervision.checks.thrust_fraction` of the thrust",
+            "N",
+            f"`{SupervisionTable.acts}`",
+            "`supervision.checks.thrust_fraction`",
+        ),
+    ),
+    channels=SupervisionChannels,
+    findings=supervision_findings,
+    calm=False,
+)

@@ -14,10 +14,13 @@ from tandemlift.core.errors import CheckResult, refused
 from tandemlift.core.keys import NonNegative, Positive, Table, Tilt, key
 from tandemlift.core.law import choice
 from tandemlift.core.low_pass import LowPass, LowPassState, low_pass_step
-from tandemlift.core.types import Number, number
+from tandemlift.core.part import Part
+from tandemlift.core.trajectories import PhasesTable
+from tandemlift.core.types import Number, filled, number
 from tandemlift.core.vector import Absent
 from tandemlift.parts.guidance.compliance import DeadBand, DeadBandState, PushFilters, dead_band
 from tandemlift.parts.guidance.phases import PhaseOutput
+from tandemlift.parts.mechanics.rigid_body import InitialTable
 from tandemlift.parts.mechanics.rotation import heading_from, wrap_angle
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
@@ -148,20 +151,19 @@ NO_MOMENT = LowPassState(0.0, 0.0)
 
 
 def start_heading(
-    table: YawTable, push: PushFilters, vehicle: Vehicle, heading: Number
+    table: YawTable, push_filters: PushFilters, vehicle: Vehicle, initial: InitialTable, phases: PhasesTable
 ) -> tuple[YawCompliance, YawState] | tuple[FixedHeading, Absent]:
-    """The compliance about the yaw axis from a heading [rad], and its memory; `push`: the filters of a push."""
-    heading = heading_from(heading)
+    """The compliance about the yaw axis from the first heading, and its memory."""
+    push, heading = push_filters, heading_from(0.0 if phases.rotors == "always" else initial.euler[2])
     if table.model == "held":
         return FixedHeading(heading, table.max_lead_angle), Absent()
-    turning = YawCompliance(
+    turning = filled(
+        YawCompliance,
+        table,
         input_filter=push.input,
         band=push.dead_band(table.threshold),
         output_filter=push.output,
         inverse_inertia=1.0 / (number(vehicle.inertia[2, 2]) if table.inertia is None else table.inertia),
-        damping=table.damping,
-        max_moment=table.max_moment,
-        max_lead_angle=table.max_lead_angle,
     )
     quiet = DeadBandState(active=0.0, above_time=0.0, inactive_time=0.0, mean=0.0, bias=0.0)
     return turning, YawState(NO_MOMENT, quiet, NO_MOMENT, heading, 0.0, 0.0)
@@ -177,3 +179,6 @@ def yaw_checks(table: YawTable, vehicle: Vehicle, guidance: str, step: float) ->
             f"inertia {J:g} kg m² (compliance.yaw.inertia, or the vehicle's) and step {step:g} s, or the admittance is "
             "unstable"
         )
+
+
+HEADING = Part("heading", "guidance", "compliance.yaw", "", start_heading, refusals=yaw_checks)

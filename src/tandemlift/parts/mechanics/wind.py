@@ -7,21 +7,27 @@ in the velocity through the air; the linear drag of the whole vehicle, `vehicle.
 from __future__ import annotations
 
 import math
-from typing import Annotated, Literal, NamedTuple
+from collections.abc import Iterator
+from typing import Annotated, Literal, NamedTuple, cast
 
 import numpy as np
 from pydantic import Field
 
 from tandemlift.core.algebra import clip, cos, maximum, sqrt
 from tandemlift.core.arrays import distance
+from tandemlift.core.errors import CheckResult, warned
 from tandemlift.core.keys import NonNegative, PerAxis, Positive, Table, key
 from tandemlift.core.law import elementwise, law
+from tandemlift.core.part import Part
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Absent, Vec3, apply, apply_transposed, cross, dot, spread, vec3
-from tandemlift.parts.mechanics.joint_loads import PartLoad, PartLoads, PartsLayout, translated
+from tandemlift.parts.mechanics.joint_loads import PartLoad, PartLoads, PartsLayout, sum_over_set, translated
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import PI, rotation_from_quaternion
 from tandemlift.parts.mechanics.turbulence import (
+    FOOT,
+    HIGHEST,
+    LOWEST,
     Dryden,
     TurbulenceState,
     WindNoise,
@@ -186,12 +192,10 @@ NO_NOISE = WindNoise(0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 def start_wind(
-    w: WindTable, vehicle: Vehicle, step: float, chance: np.random.Generator
-) -> tuple[WindModel, TurbulenceState | Absent] | tuple[Absent, Absent]:
-    """The wind and its turbulence at t = 0, or `Absent`; `chance` draws the turbulence."""
-    if w.model == "none":
-        return Absent(), Absent()
-    turbulence: Dryden | Absent = Absent()
+    table: WindTable, vehicle: Vehicle, step: float, chance: np.random.Generator
+) -> tuple[WindModel, TurbulenceState | Absent]:
+    """The wind and its turbulence at t = 0; `chance` draws the turbulence."""
+    w, turbulence = table, cast("Dryden | Absent", Absent())
     if w.turbulence > 0.0:
         airspeed = w.airspeed
         if airspeed is None:
@@ -211,3 +215,32 @@ def gusts_from(w: WindTable) -> list[Gust]:
     """The gusts on top of the mean wind."""
     gusts = w.gusts if w.model == "air" else ()
     return [Gust(vec3(g.velocity), g.start, 1.0 / g.rise, math.inf if g.hold is None else g.hold) for g in gusts]
+
+
+def wind_checks(table: WindTable) -> Iterator[CheckResult]:
+    """Check for turbulence at a height outside the standard."""
+    lowest, highest = LOWEST * FOOT, HIGHEST * FOOT
+    held = min(max(table.height, lowest), highest)
+    if table.turbulence and abs(held - table.height) > 1e-6 * held:
+        yield warned(
+            f"wind.height = {table.height}: MIL-F-8785C gives the turbulence from {lowest:g} m to {highest:g} m; "
+            f"that of {held:g} m blows"
+        )
+
+
+class WindChannels(NamedTuple):
+    """The velocity of the air, and its force on all parts together."""
+
+    wind_velocity: Vec3
+    wind_force: Vec3
+
+
+@law(absent="loads")
+def wind_channels(loads: PartLoads, velocity: Vec3) -> WindChannels:
+    """The channels of moving air."""
+    return WindChannels(wind_velocity=velocity, wind_force=loads.payload.force + sum_over_set(loads.quadrotors.force))
+
+
+WIND = Part(
+    *("wind", "body", "wind", WindTable.acts, start_wind), checks=wind_checks, channels=WindChannels, calm=False
+)

@@ -11,9 +11,11 @@ from tandemlift.core.algebra import where
 from tandemlift.core.errors import CheckResult, refused, warned
 from tandemlift.core.keys import Delay, NonNegative, Positive, Share, Table, key
 from tandemlift.core.low_pass import LowPassState, low_pass
-from tandemlift.core.types import Array, Number, number
+from tandemlift.core.part import Part
+from tandemlift.core.types import Number, filled, number
 from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.parts.contact.corridor import CorridorTable, Point2
+from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import heading_from
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -216,39 +218,16 @@ def start_virtual_hand(p: PersonTable, step: float) -> tuple[VirtualHand, Virtua
     return grab, VirtualHandState(nothing, still, nothing, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
-def start_person(p: PersonTable, vehicle: Vehicle, step: float, walk: Walk) -> tuple[Any, Any, Any]:
-    """The person, their state at t = 0 and the layout of their noise, for steps of `step` [s].
-
-    `Absent` three times without a person.
-    """
-    if p.model == "none":
-        return Absent(), Absent(), Absent()
+def start_person(table: PersonTable, vehicle: Vehicle, step: float, walk: Walk) -> tuple[Any, Any]:
+    """The person and their state at t = 0, for steps of `step` [s]."""
+    p = table
     if p.model == "virtual-hand":
-        return *start_virtual_hand(p, step), Absent()
+        return start_virtual_hand(p, step)
     grip = grip_from(p, vehicle)
-    arm = Arm(
-        stiffness=p.stiffness,
-        damping=p.damping,
-        lag=low_pass(1.0 / p.lag, step),
-        tremor=tremor(p.tremor, step),
-        max_force=p.max_force,
-        max_couple=p.max_couple,
-        horizon=p.delay + 2.0 * p.lag,
-    )
+    lag = low_pass(1.0 / p.lag, step)
+    arm = filled(Arm, p, lag=lag, tremor=tremor(p.tremor, step), horizon=p.delay + 2.0 * p.lag)
     height = walk.state.position.z + p.height_fraction * walk.lift
-    last = float(len(walk.waypoints) - 1)
-    following = PathFollowing(
-        speed=p.speed,
-        gain=p.gain,
-        look_ahead=p.look_ahead,
-        approach_gain=p.approach_gain,
-        breakaway_force=p.breakaway_force,
-        trim_rate=p.trim_rate,
-        landing_speed=p.landing_speed,
-        start_time=p.start_time,
-        height=height,
-        last=last,
-    )
+    following = filled(PathFollowing, p, height=height, last=float(len(walk.waypoints) - 1))
     person = Person(grip, arm, following, person_settings_from(p))
     view = person_view(grip, walk.state)
     nothing = LowPassState(0.0, 0.0)
@@ -265,11 +244,17 @@ def start_person(p: PersonTable, vehicle: Vehicle, step: float, walk: Walk) -> t
         landing=0.0,
         tremor=STILL,
     )
-    return person, memory, NO_TREMOR_NOISE
+    return person, memory
 
 
-def person_checks(p: PersonTable, corridor: CorridorTable, box: tuple[Array, Array]) -> Iterator[CheckResult]:
-    """Check for a person without a path, or with a grip beside a payload in a `box` from its origin [m]."""
+def tremor_noise_of(person: Any) -> Any:
+    """The layout of a person's standard normals."""
+    return NO_TREMOR_NOISE if isinstance(person, Person) else Absent()
+
+
+def person_refusals(table: PersonTable, corridor: CorridorTable, nominal: Vehicle) -> Iterator[CheckResult]:
+    """Refusals of a person without a path, or with a grip beside the payload."""
+    p, box = table, nominal.payload.box
     low, high = box[0][1], box[1][1]
     if p.recording is not None and p.model != "virtual-hand":
         yield refused(f'person.recording = "{p.recording}": must be left out where person.model is "{p.model}"')
@@ -283,12 +268,24 @@ def person_checks(p: PersonTable, corridor: CorridorTable, box: tuple[Array, Arr
         yield refused(f"person.grip = {p.grip}: must be on the payload, from {low:g} m to {high:g} m of its origin")
 
 
-def person_warnings(p: PersonTable, guidance: str, tared: float | None) -> Iterator[CheckResult]:
-    """Check for a person whom a pilot with this `guidance` does not obey, or who pushes before the tare ends [s]."""
-    if p.model in ("none", "virtual-hand"):
+def person_checks(table: PersonTable, guidance: str, push: str, estimator: EstimatorTable) -> Iterator[CheckResult]:
+    """Check for a person whom a pilot with this guidance does not obey, or who pushes before the tare ends."""
+    p = table
+    if p.model == "virtual-hand":
         return
     if guidance != "interactive":
         yield warned('the landing request of [person] has no effect: pilot.guidance is not "interactive"')
-    if tared is not None and p.start_time < tared:
+    if push == "truth" or estimator.tare_start is None:
+        return
+    tared = estimator.tare_start + estimator.tare_duration
+    if p.start_time < tared:
         start = f"person.start_time = {p.start_time}"
         yield warned(f"{start} is before the tare ends at {tared:g} s, which treats the push as a bias")
+
+
+PERSON = Part(
+    *("person", "body", "person", f'{PersonTable.acts} or "virtual-hand"', start_person),
+    refusals=person_refusals,
+    checks=person_checks,
+    begins=lambda table: table.start_time,
+)

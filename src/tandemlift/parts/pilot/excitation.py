@@ -23,6 +23,7 @@ from tandemlift.core.algebra import chosen, cos, maximum, sin, where
 from tandemlift.core.errors import CheckResult, judged, refused
 from tandemlift.core.keys import NonNegative, Positive, Positive3, Table, key
 from tandemlift.core.law import elementwise, law
+from tandemlift.core.part import FlightCheck, Part
 from tandemlift.core.trajectories import PhasesTable, smoothstep
 from tandemlift.core.types import GRAVITY, Array, Number, NumberSet
 from tandemlift.core.vector import Absent, Vec3, total
@@ -172,10 +173,8 @@ def excited_lead(k: Excitation, lead: ReferenceVelocity | Absent, t: Number) -> 
     return sines_velocity(k.motion, k, lead, t)
 
 
-def start_excitation(table: ExcitationTable) -> Excitation | Absent:
-    """The excitation, or `Absent`."""
-    if table.model == "none":
-        return Absent()
+def start_excitation(table: ExcitationTable) -> Excitation:
+    """The excitation."""
     # the fall ends a ramp before the end, in which the reference comes to rest
     end, along = table.begin + table.duration, {axis: sines_from(table.lines, axis) for axis in AXES}
     moves = any(not isinstance(along[axis], Absent) for axis in MOTION)
@@ -233,8 +232,6 @@ def time_checks(table: ExcitationTable, phases: PhasesTable, step: float, end: f
 
 def excitation_checks(table: ExcitationTable, hover: HoverFacts, max_tilt: float) -> Iterator[CheckResult]:
     """Check thrusts, tilt (limit [rad]) and room of an excitation, without the controller, which resists it."""
-    if table.model == "none":
-        return
     wrench = np.array([over_time(table, axis) for axis in WRENCH])
     change = hover.vehicle.allocation(hover.allocation.weights) @ wrench
     most = np.repeat([q.thrust_limit for q in hover.vehicle.quadrotors], 4)
@@ -282,3 +279,22 @@ def over_time(table: ExcitationTable, axis: str, integrals: int = 0) -> Array:
             phase = line.phase - 0.5 * math.pi * integrals
             total_of += line.amplitude * omega**-integrals * np.sin(omega * s + phase)
     return total_of
+
+
+EXCITATION = Part(
+    *("excitation", "pilot", "excitation", ExcitationTable.acts, start_excitation),
+    remembers=False,
+    refusals=time_checks,
+    checks=excitation_checks,
+    rows=(
+        FlightCheck(
+            "excitation",
+            "change of a rotor's thrust; tilt; way of the centre of mass, by the excitation without the controller",
+            "what the rotor has left in hover; the largest tilt that the controller or the guidance commands; the room",
+            "1, rad, m",
+            f"`{ExcitationTable.acts}`",
+            "`excitation.lines`, `excitation.room`",
+        ),
+    ),
+    begins=lambda table: table.begin,
+)

@@ -2,7 +2,7 @@
 
 measured push → guidance (gate, admittance, phases) → reference → controller → wrench → lead → excitation → allocation →
 thrusts, and beside it the disturbance observer and the detection of rotor failures. The pilot is sampled every
-`mission.step`; its outputs are held until the next sample. `simulation.preparation.start_pilot` makes one from a
+`mission.step`; its outputs are held until the next sample. `simulation.preparation.assemble` makes one from a
 mission.
 """
 

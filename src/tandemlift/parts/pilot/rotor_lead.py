@@ -13,8 +13,9 @@ from typing import NamedTuple
 
 from tandemlift.core.law import law
 from tandemlift.core.low_pass import LowPass, LowPassState, low_pass, low_pass_step
+from tandemlift.core.part import Part
 from tandemlift.core.types import Number
-from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
+from tandemlift.core.vector import ZERO, Vec3, vec3
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.rotors.allocation import AllocationTable
 
@@ -42,19 +43,11 @@ def lead_step(k: RotorLead, memory: RotorLeadState, u: Wrench) -> tuple[Wrench, 
     return led, RotorLeadState(thrust, moment)
 
 
-def start_lead(
-    table: AllocationTable, weight: float, step: float, *, hovers: bool
-) -> tuple[RotorLead, RotorLeadState] | tuple[Absent, Absent]:
-    """The lead before its first sample, and its memory; or `Absent` without a lead time.
-
-    Args:
-        table: `[allocation]`.
-        weight: of the vehicle [N].
-        step: sampling time [s].
-        hovers: whether the rotors have their hover speed at the start.
-    """
-    if not any(table.lead):
-        return Absent(), Absent()
+def start_lead(table: AllocationTable, weight: float, step: float, *, hovers: bool) -> tuple[RotorLead, RotorLeadState]:
+    """The lead of a vehicle with a weight [N], and its memory; `hovers`: whether the rotors do at the start."""
     at_start = RotorLeadState(LowPassState(weight if hovers else 0.0, 0.0), LowPassState(ZERO, ZERO))
     thrust, *moment = table.lead
     return RotorLead(low_pass(table.lead_bandwidth, step), thrust, vec3(moment)), at_start
+
+
+LEAD = Part("lead", "pilot", "allocation", "allocation.lead > 0", start_lead)

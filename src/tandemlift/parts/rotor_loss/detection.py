@@ -23,22 +23,94 @@ just after the lift, and while a floor supports the vehicle. One lost rotor is l
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Annotated, Any, Literal, NamedTuple
+
+import numpy as np
 
 from tandemlift.core.algebra import chosen, maximum, minimum, where
+from tandemlift.core.arrays import largest
+from tandemlift.core.errors import CheckResult, refused
+from tandemlift.core.findings import Finding, finding
+from tandemlift.core.keys import BELIEVED, Bandwidth, Fraction, NonNegative, PerAxis, Positive, Scale, Table, key
 from tandemlift.core.law import elementwise, law
-from tandemlift.core.low_pass import LowPass, LowPassState, low_pass_step
-from tandemlift.core.types import GRAVITY, Number, NumberSet, PerRotor
-from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, each, total
-from tandemlift.parts.mechanics.rigid_body import PushedState, apply_inertia, gyroscopic
+from tandemlift.core.low_pass import LowPass, LowPassState, low_pass, low_pass_step
+from tandemlift.core.part import Part, channels_of
+from tandemlift.core.types import GRAVITY, Number, NumberSet, PerRotor, filled, number
+from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, dot, each, total
+from tandemlift.parts.mechanics.rigid_body import InitialTable, PushedState, apply_inertia, gyroscopic, inertia_value
 from tandemlift.parts.mechanics.rotation import body_z_axis
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotor_loss.decision import DecisionRules, DecisionState, decision_step, share_gone, support
 from tandemlift.parts.rotors.allocation import Mixer, wrench
+from tandemlift.parts.rotors.rotor_faults import FaultTable
 
 FOUR = each(4)
 UPRIGHT = 0.3  # least cosine of the tilt
 START_SCATTER = 4.0  # scatter² just after the lift, over its `bound`
 SUPPORTED = 0.15  # of the weight: the force of a floor from which on the vehicle counts as standing
+
+
+Positive4 = Annotated[tuple[Scale, Scale, Scale, Scale], PerAxis(4)]
+
+
+class DetectionTable(Table, acts='detection.model = "residual"'):
+    """`[detection]`: rotor-failure detection, from the momentum that the modelled rotors do not explain.
+
+    With `allocation.method = "constrained"`, which it needs: a rotor that is declared failed gets no thrust, and a
+    pilot with interactive guidance lands. A rotor that stops or loses more than about half of its thrust is detected,
+    one at a time, from about three seconds after the lift, while nothing supports the vehicle from below.
+    """
+
+    model: Literal["none", "residual"] = key(
+        "none",
+        None,
+        "model of the detection",
+        choices={"none": "no detection", "residual": "likelihood-ratio tests of the momentum residual"},
+    )
+    bandwidth: Bandwidth = key(
+        60.0, "rad/s", "bandwidth of the second-order low-pass filter on the residual", source="chosen"
+    )
+    bias_bandwidth: Bandwidth = key(
+        2.0, "rad/s", "bandwidth of the residual's mean, which is subtracted: wind, or a wrong mass", source="chosen"
+    )
+    scatter_bandwidth: Bandwidth = key(
+        3.0,
+        "rad/s",
+        "bandwidth of the residual's mean square, which adds to scatter²: noise, or a wrong model",
+        source="chosen",
+    )
+    scatter: Positive4 = key(
+        (0.3, 0.3, 0.03, 0.3),
+        "N, N m",
+        "standard deviation of the residual in thrust, roll, pitch and yaw for a well modelled vehicle",
+        source="chosen",
+    )
+    thrust_uncertainty: Fraction = key(
+        0.2, "1", "fraction by which a rotor's thrust may differ from the model", source="chosen"
+    )
+    threshold: Positive = key(
+        40.0, "1", "detection threshold: twice the log-likelihood ratio of a failed rotor against none", source="chosen"
+    )
+    isolation_margin: Positive = key(
+        3.0, "1", "twice the log-likelihood ratio by which the failed rotor must lead any other", source="chosen"
+    )
+    unexplained_fraction: Fraction = key(
+        0.25,
+        "1",
+        "largest fraction of the residual's square that the failed rotor may leave unexplained",
+        source="chosen",
+    )
+    dwell: NonNegative = key(0.012, "s", "time for which all these criteria must hold", source="chosen")
+    retest_time: NonNegative = key(
+        0.2,
+        "s",
+        "time for which a rotor declared failed is commanded its hover thrust on trial, and may be restored; after it, "
+        "the landing begins",
+        source="chosen",
+    )
+    rotor_lag: Positive = key(0.018, "s", "time constant of the modelled rotors, up and down", source=BELIEVED)
+    rotor_delay: NonNegative = key(0.01, "s", "delay of the modelled rotors", source="actuators.delay of mission iris")
 
 
 class ObservedPush(NamedTuple):
@@ -235,3 +307,108 @@ def left_of(k: RotorLossDetection, memory: DetectionState) -> PerRotor:
 def with_trials(k: RotorLossDetection, memory: DetectionState, commands: PerRotor, t: Number) -> PerRotor:
     """Commands [N], with those by which a lost rotor is tried again."""
     return commands + trials(k, memory.verdict, t)
+
+
+AT_ONCE = 1e-9  # s, for a dwell of 0: a timer counts as over from the first sample that it runs, not at rest
+BOUND = 0.5  # of the residual after a rotor failure: the largest contribution of a sample to the scatter
+
+
+def _four(values: Iterable[float]) -> NumberSet:
+    return FOUR(*map(number, values))
+
+
+def start_detection(
+    table: DetectionTable,
+    vehicle: Vehicle,
+    effect: Mixer,
+    step: float,
+    initial: InitialTable,
+    *,
+    hovers: bool,
+    joints: bool = True,
+) -> tuple[RotorLossDetection, DetectionState]:
+    """The detection before its first sample, and its memory; `joints`: whether joint sensors measure the push."""
+    d, rotors, hover = table, each(vehicle.rotor_count), vehicle.weight / vehicle.rotor_count
+    bound = (BOUND * hover * largest(np.abs(vehicle.effect), axis=1)) ** 2
+    detection = RotorLossDetection(
+        mass=vehicle.mass,
+        inertia=inertia_value(vehicle.inertia),
+        effect=effect,
+        rotors=low_pass(2.0 / (d.rotor_lag + d.rotor_delay + step), step),
+        quick=low_pass(d.bandwidth, step),
+        bias_filter=low_pass(d.bias_bandwidth, step),
+        scatter_filter=low_pass(d.scatter_bandwidth, step),
+        scatter=_four(np.square(d.scatter)),
+        bound=_four(bound),
+        trial=rotors(*(hover,) * vehicle.rotor_count),
+        numbers=rotors(*map(float, range(1, vehicle.rotor_count + 1))),
+        rules=filled(DecisionRules, d, dwell=maximum(d.dwell, AT_ONCE), per_spread=1.0 / d.thrust_uncertainty**2),
+        observed=Absent() if joints else ObservedPush(),
+    )
+    return detection, _at_start(detection, vehicle, initial, hovers)
+
+
+def _at_start(k: RotorLossDetection, vehicle: Vehicle, initial: InitialTable, hovers: bool) -> DetectionState:
+    """The memory before the first sample: consistent with rest, with a scatter that nothing exceeds."""
+    rotors = each(vehicle.rotor_count)
+    none, nought = rotors(*(0.0,) * vehicle.rotor_count), _four((0.0,) * 4)
+    start = k.trial if hovers else none
+    momentum = _four([k.mass * initial.velocity[2], *(vehicle.inertia @ np.array(initial.rates))])
+    return DetectionState(
+        rotors=LowPassState(start, none),
+        thrusts=LowPassState(start, none),
+        momentum=LowPassState(momentum, nought),
+        others=LowPassState(_four([-vehicle.weight, 0.0, 0.0, 0.0]), nought),
+        mean=LowPassState(nought, nought),
+        scatter=LowPassState(k.bound * START_SCATTER, nought),
+        verdict=DecisionState(lost=none, since=0.0, named=0.0, above=none, alive=0.0),
+    )
+
+
+def detection_checks(table: DetectionTable, method: str) -> Iterator[CheckResult]:
+    """Check for a detection with an allocation that cannot omit rotors; `method`: `allocation.method`."""
+    if table.model != "none" and method != "constrained":
+        yield refused(
+            f'detection.model = "{table.model}": must be "none" unless allocation.method is "constrained", '
+            "which alone can omit a rotor"
+        )
+
+
+class DetectionChannels(NamedTuple):
+    """The number of the rotor that is classified as failed; 0 for none."""
+
+    failed_rotor: Number
+
+
+@channels_of.register(RotorLossDetection)
+def _channels(k: RotorLossDetection, memory: Any, decision: Any) -> DetectionChannels:
+    return DetectionChannels(failed_rotor=dot(memory.detection.verdict.lost, k.numbers))
+
+
+def detection_findings(
+    k: RotorLossDetection, m: DetectionState, table: DetectionTable, *, interactive: bool, supervised: bool
+) -> Iterator[Finding]:
+    """The finding of a landing after a detected failure, if no supervision reports it."""
+    if supervised or not interactive or not total(m.verdict.lost):
+        return
+    text = f"landed because of a fault: rotor {int(dot(m.verdict.lost, k.numbers))} failed"
+    yield finding("landed-by-fault", text, time=m.verdict.since + table.retest_time, quantity="rotor failed")
+
+
+def detection_metrics(k: RotorLossDetection, m: DetectionState, faults: Sequence[FaultTable]) -> dict[str, Any]:
+    """The number of detections, and the delay [s] of the correct one; None without."""
+    lost = int(dot(m.verdict.lost, k.numbers))
+    times = [f.time for f in faults if 4 * (f.quadrotor - 1) + f.rotor == lost]
+    delay = m.verdict.since - times[0] if times else None
+    return {"rotor_failure_detections": m.verdict.named, "rotor_failure_detection_delay_s": delay}
+
+
+DETECTION = Part(
+    *("detection", "pilot", "detection", DetectionTable.acts, start_detection),
+    refusals=detection_checks,
+    channels=DetectionChannels,
+    logged="detection",
+    findings=detection_findings,
+    metrics=detection_metrics,
+    calm=False,
+)

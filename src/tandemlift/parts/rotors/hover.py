@@ -73,7 +73,10 @@ class HoverFacts(NamedTuple):
     @property
     def faulty_lift(self) -> float:
         """The largest thrust of all rotors together with all faults of the flight [N]."""
-        return self.lift - sum(float(self.most[f.quadrotor - 1]) * (1.0 - f.efficiency) for f in self.faults)
+        left = np.tile(self.most, (4, 1))  # of each rotor, so that nothing is left of none by rounding
+        for f in self.faults:
+            left[f.rotor - 1, f.quadrotor - 1] *= f.efficiency
+        return float(left.sum())
 
     @property
     def lag(self) -> float:

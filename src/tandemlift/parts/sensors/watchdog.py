@@ -19,7 +19,7 @@ from pydantic import Field
 from tandemlift.core.algebra import chosen, exp, maximum, minimum, where
 from tandemlift.core.keys import NonNegative, Positive, Table, key
 from tandemlift.core.law import law
-from tandemlift.core.types import Number
+from tandemlift.core.types import Number, filled
 from tandemlift.core.vector import ZERO, Quat, Vec3, dot
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_between
@@ -279,9 +279,9 @@ def watchdog_from(w: WatchTable, s: SensorsTable, step: float) -> Watchdog:
     held = -(-(joint_steps(s, step) or 1) // steps_of(s.interval, step))  # samples of the imu with one of the joints
     interval = step * steps_of(s.motion.interval, step)
     joints: SensorLimits = JointLimits(w.max_force, w.max_torque, frozen(s.joints.force_noise, held))
-    return Watchdog(
-        stale_time=w.stale_time,
-        invalid_time=w.invalid_time,
+    return filled(
+        Watchdog,
+        w,
         sensors=PerSensor(
             joints=joints if s.joints.model != "none" else NoLimits(math.inf),
             accelerometer=VectorLimits(w.max_specific_force, frozen(s.accelerometer.noise)),
@@ -291,8 +291,6 @@ def watchdog_from(w: WatchTable, s: SensorsTable, step: float) -> Watchdog:
             attitude=AttitudeLimits(frozen(s.motion.attitude_noise)),
         ),
         forgetting=minimum(interval / w.window, 1.0),
-        attitude_gap=w.attitude_gap,
-        position_gap=w.position_gap,
         velocity_gap=w.speed_gap,
         rates_gain=1.0 - exp(-w.rates_bandwidth * interval),
         velocity_gain=1.0 - exp(-w.velocity_bandwidth * interval),

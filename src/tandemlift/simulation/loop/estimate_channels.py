@@ -7,7 +7,7 @@ from typing import NamedTuple
 from tandemlift.core.law import choice, law
 from tandemlift.core.types import Number
 from tandemlift.core.vector import Absent, Quat, Vec3, apply_transposed, cross
-from tandemlift.parts.estimation.contact_detection import ContactEstimate
+from tandemlift.parts.estimation.contact_detection import ContactEstimateChannels, contact_channels
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.sensors.readings import Readings, by_name
 from tandemlift.simulation.loop.perception import Estimates
@@ -43,32 +43,6 @@ class EstimatedChannels(NamedTuple):
     push_usable: Number
     push_withheld: Vec3
     contact_estimate: ContactEstimateChannels | Absent
-
-
-class ContactEstimateChannels(NamedTuple):
-    """The contact as estimated; `parts.estimation.contact_detection.ContactEstimate` describes it."""
-
-    contact_part: Number
-    contact_force_estimate: Vec3
-    contact_point_estimate: Vec3
-    contact_along_beam: Number
-    contact_normal: Vec3
-    contact_rise_time: Number
-    contact_on_map: Number
-
-
-@law(absent="contact")
-def contact_channels(contact: ContactEstimate) -> ContactEstimateChannels:
-    """The channels of an estimated contact."""
-    return ContactEstimateChannels(
-        contact_part=contact.part,
-        contact_force_estimate=contact.force,
-        contact_point_estimate=contact.point,
-        contact_along_beam=contact.along,
-        contact_normal=contact.normal,
-        contact_rise_time=contact.rise,
-        contact_on_map=contact.on_map,
-    )
 
 
 @law(absent="readings")

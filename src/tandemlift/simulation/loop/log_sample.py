@@ -6,22 +6,22 @@ its group is `Absent`.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from tandemlift.core.algebra import clip
 from tandemlift.core.law import choice, law
+from tandemlift.core.part import channels_of
 from tandemlift.core.types import Number, PerRotor
-from tandemlift.core.vector import Absent, Quat, Vec3, dot
+from tandemlift.core.vector import Absent, Quat, Vec3
 from tandemlift.engines.compiled import BodyStep
 from tandemlift.engines.compiled_contact import DistantFloor
+from tandemlift.missions.mission import PARTS
 from tandemlift.parts.contact.feet import Floor
-from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate, DisturbanceObserver
-from tandemlift.parts.guidance.hand_guidance import HandGuidanceChannels
-from tandemlift.parts.mechanics.joint_loads import PartLoads, PerfectReadings, sum_over_set
+from tandemlift.parts.mechanics.joint_loads import PerfectReadings
 from tandemlift.parts.mechanics.push import push_moment
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.mechanics.rotation import euler_from_quaternion
-from tandemlift.parts.rotor_loss.detection import DetectionState, RotorLossDetection
+from tandemlift.parts.mechanics.wind import WindChannels, wind_channels
 from tandemlift.parts.rotors.allocation import Mixer, achieved_fraction, wrench
 from tandemlift.parts.rotors.rotors import Rotors
 from tandemlift.simulation.loop.caller_inputs import total_force, total_moment
@@ -31,6 +31,8 @@ from tandemlift.simulation.loop.estimate_channels import (
     estimated_channels,
     measured_channels,
 )
+
+LOGGED = {part.logged: part.name for part in PARTS if part.within == "pilot" and part.logged}  # groups of channels
 
 
 class Sample(NamedTuple):
@@ -61,9 +63,12 @@ class Sample(NamedTuple):
     contact: ContactChannels | Absent
     measured: MeasuredChannels | Absent
     estimated: EstimatedChannels | Absent
-    disturbance: DisturbanceChannels | Absent
-    guidance: HandGuidanceChannels | Absent
-    detection: DetectionChannels | Absent
+
+
+if not TYPE_CHECKING:  # and the groups of the pilot's parts
+    about = Sample.__doc__
+    Sample = NamedTuple("Sample", [(name, Any) for name in (*Sample._fields, *LOGGED)])
+    Sample.__doc__ = about
 
 
 class ActuatorChannels(NamedTuple):
@@ -75,49 +80,10 @@ class ActuatorChannels(NamedTuple):
     allocation_fraction: Number
 
 
-class WindChannels(NamedTuple):
-    """The velocity of the air, and its force on all parts together."""
-
-    wind_velocity: Vec3
-    wind_force: Vec3
-
-
 class ContactChannels(NamedTuple):
     """The force of floor and walls on all parts together."""
 
     contact_force: Vec3
-
-
-class DetectionChannels(NamedTuple):
-    """The number of the rotor that is classified as failed; 0 for none."""
-
-    failed_rotor: Number
-
-
-class DisturbanceChannels(NamedTuple):
-    """The estimate of a disturbance observer, and its error."""
-
-    disturbance_force: Vec3
-    disturbance_moment: Vec3
-    disturbance_residual: Vec3
-    disturbance_angular_residual: Vec3
-
-
-@law(absent="observer")
-def disturbance_channels(observer: DisturbanceObserver, unknown: DisturbanceEstimate) -> DisturbanceChannels:
-    """The channels of a disturbance observer."""
-    return DisturbanceChannels(
-        disturbance_force=unknown.force,
-        disturbance_moment=unknown.moment,
-        disturbance_residual=unknown.residual,
-        disturbance_angular_residual=unknown.turning_residual,
-    )
-
-
-@law(absent="detection")
-def detection_channels(detection: RotorLossDetection, memory: DetectionState) -> DetectionChannels:
-    """The channels of the detection of failed rotors."""
-    return DetectionChannels(failed_rotor=dot(memory.verdict.lost, detection.numbers))
 
 
 @law(absent=Absent())
@@ -131,12 +97,6 @@ def actuator_channels(rotors: Rotors, effect: Mixer, command: Wrench, commands: 
         allocated_moment=given.moment,
         allocation_fraction=achieved_fraction(effect, rotors.wrench_scale, command, thrusts),
     )
-
-
-@law(absent="loads")
-def wind_channels(loads: PartLoads, velocity: Vec3) -> WindChannels:
-    """The channels of moving air."""
-    return WindChannels(wind_velocity=velocity, wind_force=loads.payload.force + sum_over_set(loads.quadrotors.force))
 
 
 @choice(absent="floor")
@@ -182,7 +142,5 @@ def log_sample(model: Any, output: Any, acting: Any, moved: BodyStep, inputs: An
         contact=contact_channels(model.plant.floor, readings),
         measured=measured_channels(model.flight_state.readings),
         estimated=estimated_channels(output.estimates),
-        disturbance=disturbance_channels(model.pilot.observer, decision.disturbance),
-        guidance=guidance.channels,
-        detection=detection_channels(model.pilot.detection, output.memory.detection),
+        **{group: channels_of(getattr(model.pilot, name), output.memory, decision) for group, name in LOGGED.items()},
     )

@@ -14,44 +14,45 @@ from numpy.typing import NDArray
 
 from tandemlift.core.caching import cached
 from tandemlift.core.phases import FLIES
-from tandemlift.core.vector import ZERO, Absent
+from tandemlift.core.vector import ZERO, Absent, each, vec3
 from tandemlift.engines.compiled import plant_from, readings_at_rest, start_state
 from tandemlift.missions import Mission
+from tandemlift.missions.facts import Facts
 from tandemlift.parts.contact.clearance import Clearance, clearance
 from tandemlift.parts.contact.feet import start_foot_grip
 from tandemlift.parts.contact.touches import start_touches
+from tandemlift.parts.controllers import controller
+from tandemlift.parts.estimation.fused_push import start_push_estimator
+from tandemlift.parts.estimation.navigation import navigator_from, start_navigation
+from tandemlift.parts.estimation.wrench_push import PushInputs, push_and_state
+from tandemlift.parts.guidance.guidance import flight_spans
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.mechanics.wind import start_wind, wind_noise_of
+from tandemlift.parts.mechanics.wind import wind_noise_of
 from tandemlift.parts.person.person import PersonState
-from tandemlift.parts.person.person_table import PersonTable, Walk, path_legs_from, start_person, waypoints_from
+from tandemlift.parts.person.person_table import PersonTable, Walk, path_legs_from, tremor_noise_of, waypoints_from
+from tandemlift.parts.pilot.pilot import PilotMemory, PilotParameters
+from tandemlift.parts.rotors.allocation import start_allocation
 from tandemlift.parts.rotors.rotors import ActuatorsTable, start_rotors
 from tandemlift.parts.sensors.readings import (
     Readings,
     SensorNoise,
-    Sensors,
-    SensorState,
     by_name,
     readings_of,
     start_sensing,
 )
 from tandemlift.parts.sensors.sensor_faults import sensor_faults_from
-from tandemlift.parts.sensors.sensors_table import SensorsTable, first_samples
+from tandemlift.parts.sensors.sensors_table import SensorsTable, first_samples, steps_of
 from tandemlift.parts.sensors.start_sensors import sensors_from
+from tandemlift.simulation.loop import perception
 from tandemlift.simulation.loop.estimate_errors import NO_ERRORS
 from tandemlift.simulation.loop.external_inputs import InputTables, input_tables_from, near_walls_from, push_kind
 from tandemlift.simulation.loop.fault_tolerant_perception import (
-    FaultySensors,
-    FaultySensorsState,
-    WatchedEstimators,
-    WatchedEstimatorsState,
     with_faults,
     with_watchdogs,
 )
-from tandemlift.simulation.loop.perception import Estimators, EstimatorState
 from tandemlift.simulation.loop.random_numbers import key_from_seed
 from tandemlift.simulation.loop.running_metrics import EMPTY, NO_EFFORT, RunningMetrics
-from tandemlift.simulation.loop.sources import MAPS, READS, Delayed, DelayLines, PilotSources
+from tandemlift.simulation.loop.sources import MAPS, READS, Delayed, DelayLines, NominalVehicle, PilotSources
 from tandemlift.simulation.loop.step import FlightModel, FlightState, StepInputs, StepNoise
 from tandemlift.simulation.preparation.limits import (
     crash_limits_from,
@@ -59,7 +60,6 @@ from tandemlift.simulation.preparation.limits import (
     start_crash,
     start_detectors,
 )
-from tandemlift.simulation.preparation.start_pilot import start_estimators, start_pilot
 
 _grip, _clearance = cached(start_foot_grip), cached(clearance)
 
@@ -112,44 +112,80 @@ def start_metrics(far: Clearance | Absent, person: PersonState | Absent, *, coun
     return EMPTY._replace(clearance=far, effort=effort, estimate=errors)
 
 
-class StartedPerception(NamedTuple):
-    """Sensors with their memory, noise and first readings, and estimators with theirs; each may be `Absent`."""
+def start_pilot(facts: Facts) -> tuple[PilotParameters, PilotMemory]:
+    """The pilot of a mission before its first sample, for its nominal vehicle.
 
-    devices: Sensors | FaultySensors | Absent
-    sensing: SensorState | FaultySensorsState | Absent
-    noise: SensorNoise | Absent
-    readings: Readings | Absent
-    estimators: WatchedEstimators | Estimators | Absent
-    known: WatchedEstimatorsState | EstimatorState | Absent
+    Raises:
+        InputError: the controller is not registered, or the allocation weights do not fit the vehicle.
+    """
+    table, vehicle = facts["controller"], facts["vehicle"]
+    gains, memory = controller(table.name).start(table, vehicle, facts["step"])
+    allocation, allocated = start_allocation(facts["allocation"], vehicle, facts["known"])
+    parts, memories = facts.started("pilot")
+    parameters = PilotParameters(controller=gains, allocation=allocation, **parts)
+    return parameters, PilotMemory(controller=memory, allocation=allocated, **memories)
 
 
-def start_perception(
-    mission: Mission, vehicle: Vehicle, state: State, chance: Any, at_rest: Callable[[], Any], floor: float | None
-) -> StartedPerception:
-    """Sensors and estimators before the first step; `at_rest` gives the perfect readings at the start.
+def start_estimators(
+    facts: Facts, state: State, readings: Readings | Absent, floor: float | None
+) -> tuple[perception.Estimators | Absent, perception.EstimatorState | Absent]:
+    """The estimators of a mission and their memory at t = 0, for the nominal vehicle; or `Absent`.
 
     `floor`: height z [m] of a floor with ground effect, or None.
     """
-    step = mission.mission.step
-    devices, noise = sensors_from(mission.sensors, vehicle.count, step, chance)
+    if isinstance(readings, Absent):
+        return Absent(), Absent()
+    e, s, vehicle, step, interval = (facts[name] for name in ("estimator", "sensors", "vehicle", "step", "interval"))
+    push, pushed = start_push_estimator(
+        e, s, vehicle, readings.imu, interval, facts["observer"].rotor_delay + s.delay, floor
+    )
+    stopped = each(vehicle.rotor_count)(*[0.0] * vehicle.rotor_count)
+    observer = navigator_from(e, s, vehicle.center_of_mass, step)
+    navigation, inputs = start_navigation(observer, state), PushInputs(readings, stopped, 0.0, 0.0, interval)
+    parts, memories = facts.started("estimators")
+    held: perception.HeldEstimates | Absent = Absent()
+    if steps_of(s.interval, step) > 1:
+        first, contact = push_and_state(push, pushed, observer, navigation, inputs).push, memories["contact"]
+        touching = contact if isinstance(contact, Absent) else contact.contact
+        held = perception.HeldEstimates(first, state, touching, 0.0)
+    drag = vehicle.drag
+    estimators = perception.Estimators(
+        push=push,
+        state=observer,
+        vehicle=NominalVehicle(vec3(vehicle.payload_center), vec3(drag.force), vec3(drag.moment)),
+        tare=perception.TareInHover() if e.tare == "hover" else perception.TareAtTime(),
+        sampling=Absent() if isinstance(held, Absent) else perception.Sampling(interval),
+        hover=Absent() if facts["interactive"] else flight_spans(facts["phases"], facts["ground"].model)[1],
+        **parts,
+    )
+    return estimators, perception.EstimatorState(pushed, navigation, held=held, **memories)
+
+
+def start_perception(
+    facts: Facts, state: State, at_rest: Callable[[], Any], floor: float | None
+) -> tuple[dict[str, Any], dict[str, Any], SensorNoise | Absent]:
+    """Parameters and memory of sensors and estimators before the first step, and the layout of their noise.
+
+    `at_rest` gives the perfect readings at the start. `floor`: height z [m] of a floor with ground effect, or None.
+    """
+    sensors, faulty, step, count = facts["sensors"], facts["sensor_faults"], facts["step"], facts["vehicle"].count
+    devices, noise = sensors_from(sensors, count, step, facts["chance"])
     sensing: Any = Absent()
     readings: Any = Absent()
     if not isinstance(devices, Absent):
-        waits = first_samples(mission.sensors, step)
+        waits = first_samples(sensors, step)
         sensing = start_sensing(devices, state, at_rest(), state.attitude, waits)
         readings = readings_of(sensing)
-    estimators, known = start_estimators(mission, vehicle, state, readings, floor)
-    if mission.supervision.model != "none":
-        watchdog = mission.supervision.watchdog
-        estimators, known = with_watchdogs(watchdog, mission.sensors, step, estimators, known, readings)
-    if mission.sensor_faults:
-        names = [s.name for s in mission.sensors.additional]
-        joints = vehicle.count if mission.sensors.joints.model != "none" else 0
-        faults = sensor_faults_from(mission.sensor_faults, joints, names, step)
+    estimators, known = start_estimators(facts, state, readings, floor)
+    if facts["supervised"]:
+        watchdog = facts["supervision"].watchdog
+        estimators, known = with_watchdogs(watchdog, sensors, step, estimators, known, readings)
+    if faulty:
+        names = [s.name for s in sensors.additional]
+        faults = sensor_faults_from(faulty, count if sensors.joints.model != "none" else 0, names, step)
         devices, sensing = with_faults(faults, devices, sensing)
-    return StartedPerception(
-        devices=devices, sensing=sensing, noise=noise, readings=readings, estimators=estimators, known=known
-    )
+    memory = {"sensing": sensing, "readings": readings, "estimator": known}
+    return {"sensors": devices, "estimator": estimators}, memory, noise
 
 
 def assemble(mission: Mission) -> AssembledFlight:
@@ -158,57 +194,53 @@ def assemble(mission: Mission) -> AssembledFlight:
     Raises:
         InputError: a part of the mission cannot be built.
     """
-    vehicle, step, seed = Vehicle.from_settings(mission.vehicle), mission.mission.step, mission.mission.seed
-    chance, delays = np.random.default_rng(seed), delays_from(mission.sensors, mission.actuators, mission.person, step)
-    pilot, memory = start_pilot(mission, vehicle)
+    facts, step, seed = Facts(mission), mission.mission.step, mission.mission.seed
+    vehicle = facts["vehicle"]
+    delays = facts.call(delays_from)
+    pilot, memory = start_pilot(facts)
     state, plant = start_state(mission), plant_from(mission, vehicle)
     grip = Absent() if isinstance(plant.floor, Absent) else _grip(plant.floor, state)
     weights, over = mission.allocation.weights, plant.floor.height if mission.ground.effect else None
     given: Any = {"weights": weights, "floor": over, "delayed": bool(delays[2]), "scale": mission.plant.thrust_scale}
     rotors, spinning, thrusts = start_rotors(mission.actuators, mission.faults, vehicle, step, **given)
-    wind, wind_state = start_wind(mission.wind, vehicle, step, chance)  # before the sensors: bits hang on the order
-    near, hand = near_walls_from(plant.walls), push_kind(mission.pushes, mission.person)
-    at_rest = lambda: readings_at_rest(plant, state, grip, near, thrusts, hand)  # noqa: E731
-    senses = start_perception(mission, vehicle, state, chance, at_rest, over)
     waypoints = waypoints_from(mission.person, mission.corridor)
     walk = Walk(waypoints, state, mission.initial.euler[2], mission.phases.height)
-    person, memory_of_person, tremor_noise = start_person(mission.person, vehicle, step, walk)
+    facts.update(chance=np.random.default_rng(seed), walk=walk)
+    around, states = facts.started("body")  # the wind is drawn before the sensors: bits hang on the order
+    person = around["person"]
+    near, hand = near_walls_from(plant.walls), push_kind(mission.pushes, mission.person)
+    at_rest = lambda: readings_at_rest(plant, state, grip, near, thrusts, hand)  # noqa: E731
+    senses, sensed, noise = start_perception(facts, state, at_rest, over)
     far, counted = _clearance(plant.walls, near, plant.frame, state), mission.estimator.error_metrics
     mass, floor = vehicle.mass * mission.plant.mass_scale, mission.ground.model != "none"
     limits = crash_limits_from(mission.crash, mission.supervision, mass, floor=floor)
     flight_state = FlightState(
         state=state,
         memory=memory,
-        wind=wind_state,
         grip=grip,
         near=near,
         touches=start_touches(plant.floor, plant.walls, vehicle.rotor_count),
-        sensing=senses.sensing,
-        estimator=senses.known,
         rotors=spinning,
-        readings=senses.readings,
-        person=memory_of_person,
-        metrics=start_metrics(far, memory_of_person, counted=counted and mission.sensors.model != "none"),
+        metrics=start_metrics(far, states["person"], counted=counted and mission.sensors.model != "none"),
         impulse=Absent() if isinstance(limits.strike, Absent) else 0.0,
         crash=start_crash(limits, state),
         ended=FLIES,
         detectors=start_detectors(mission.actuators),
+        **(states | sensed),
     )
     model = FlightModel(
         flight_state=flight_state,
         pilot=pilot,
         plant=plant,
         rotors=rotors,
-        wind=wind,
-        sensors=senses.devices,
-        estimator=senses.estimators,
         sources=PilotSources(READS[mission.pilot.state], READS[mission.pilot.push], MAPS[mission.pilot.map]),
-        person=person,
         delays=delay_lines_from([s.name for s in mission.sensors.additional], delays),
         limits=limits,
-        finding_limits=finding_limits_from(mission, vehicle),
+        finding_limits=finding_limits_from(mission),
+        **(around | senses),
     )
-    inputs = StepInputs(hand, ZERO, StepNoise(wind_noise_of(wind), senses.noise, tremor_noise), memory_of_person)
+    noises = StepNoise(wind_noise_of(around["wind"]), noise, tremor_noise_of(person))
+    inputs = StepInputs(hand, ZERO, noises, states["person"])
     legs, seeds = path_legs_from(mission.person, person, walk), np.array(key_from_seed(seed))
     tables = input_tables_from(mission.pushes, mission.wind, mission.all_walls, legs)
     return AssembledFlight(model, inputs, tables, delays, seeds)

@@ -10,12 +10,11 @@ from tandemlift.core.caching import cached
 from tandemlift.core.phases import FLIES, HARD
 from tandemlift.core.types import GRAVITY, Number
 from tandemlift.core.vector import Absent, Vec3, vec3
-from tandemlift.missions import Mission
+from tandemlift.missions.mission import Mission
 from tandemlift.missions.outcomes import CrashTable, FindingsTable, promise_of
 from tandemlift.parts.guidance.admittance import AdmittanceTable
-from tandemlift.parts.guidance.supervision_table import SupervisionTable
+from tandemlift.parts.guidance.supervision import SupervisionTable
 from tandemlift.parts.mechanics.rigid_body import State
-from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.rotors import ActuatorsTable
 from tandemlift.simulation.loop.detectors import ASLEEP, Detectors, FindingLimits, PushLimits
 from tandemlift.simulation.loop.ending import Aftermath, CrashLimits, CrashMemory, OuterFence, Strike
@@ -46,19 +45,19 @@ LEAST, LEAST_FORCE = 0.1, 0.01  # of the smallest threshold, and N: the least fo
 UNLIMITED = 1e6  # m/s
 
 
-def finding_limits_from(mission: Mission, vehicle: Vehicle) -> FindingLimits:
+def finding_limits_from(m: Mission) -> FindingLimits:
     """The limits of a mission's detectors."""
-    promise, f = promise_of(mission.promise, mission.pilot.guidance), mission.findings
+    promised, f, vehicle = promise_of(m.promise, m.pilot.guidance), m.findings, m.nominal
     return FindingLimits(
-        settled=promise.settling_time,
-        distance=promise.distance * promise.distance,
-        sinking=promise.sinking,
-        heading=promise.heading,
-        upright=cos(promise.tilt),
+        settled=promised.settling_time,
+        distance=promised.distance * promised.distance,
+        sinking=promised.sinking,
+        heading=promised.heading,
+        upright=cos(promised.tilt),
         mass=vehicle.mass,
-        thrust=vehicle.max_thrust * vehicle.max_thrust if mission.actuators.model == "rotors" else math.inf,
+        thrust=vehicle.max_thrust * vehicle.max_thrust if m.actuators.model == "rotors" else math.inf,
         rate=f.oscillation_rate * f.oscillation_rate,
-        push=_push_limits(mission.admittance, f, mission.compliance.max_speed, mission.pilot.guidance == "interactive"),
+        push=_push_limits(m.admittance, f, m.compliance.max_speed, m.by_hand is not None),
         unpushed=f.unpushed_distance,
         oscillation=OscillationLimits(
             levels=Swings(f.oscillation_rate, f.oscillation_rate, f.oscillation_rate, f.oscillation_speed),

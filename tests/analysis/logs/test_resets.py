@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from tandemlift.analysis.identification.log import IMU, MOTION, Log, Stream, log_of
 from tandemlift.analysis.identification.windows import windows_of
+from tandemlift.analysis.logs.log import IMU, MOTION, Log, Stream, log_of
 from tandemlift.analysis.logs.resets import Reset, resets, with_resets
 from tandemlift.missions import load_mission
 from tandemlift.simulation.fly import fly

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.analysis.identification.checks import check_log
-from tandemlift.analysis.identification.log import IMU, JOINTS, MOTION, Stream, log_of
+from tandemlift.analysis.logs.checks import check_log
+from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, Stream, log_of
 
 POSITION, VELOCITY, ATTITUDE = MOTION
 FORCE, RATES = IMU

@@ -5,8 +5,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import tandemlift as tl
-from tandemlift.analysis.identification.clocks import clock_of, synchronised
-from tandemlift.analysis.identification.log import IMU, JOINTS, MOTION, Log, Stream
+from tandemlift.analysis.logs.clocks import clock_of, synchronised
+from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, Log, Stream
 from tandemlift.analysis.logs.stamps import distinct
 
 DURATION = 30.0  # s

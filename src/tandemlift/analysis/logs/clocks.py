@@ -26,7 +26,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.identification.log import IMU, JOINTS, MOTION, Log, Stream, conjugate, quaternion_product
+from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, Log, Stream, conjugate, quaternion_product
 from tandemlift.core.types import Array
 
 GROUPS = {"motion": MOTION, "joints": JOINTS}

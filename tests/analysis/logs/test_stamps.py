@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.analysis.identification.log import Log, Stream
+from tandemlift.analysis.logs.log import Log, Stream
 from tandemlift.analysis.logs.stamps import (
     check_order,
     check_overlap,

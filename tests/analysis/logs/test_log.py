@@ -5,7 +5,7 @@ import pytest
 from repository import ROOT
 
 import tandemlift as tl
-from tandemlift.analysis.identification.log import (
+from tandemlift.analysis.logs.log import (
     COMMANDS,
     IMU,
     JOINTS,

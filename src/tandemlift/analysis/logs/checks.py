@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping
 
 import numpy as np
 
-from tandemlift.analysis.identification.clocks import (
+from tandemlift.analysis.logs.clocks import (
     NOTHING_TOLD,
     SPAN,
     TOLD,
@@ -23,7 +23,7 @@ from tandemlift.analysis.identification.clocks import (
     means_of,
     turn_windows,
 )
-from tandemlift.analysis.identification.log import IMU, JOINTS, MOTION, Log, Stream, rotated
+from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, Log, Stream, rotated
 from tandemlift.analysis.logs.stamps import check_rate
 from tandemlift.core.errors import FlightWarning, InputError
 from tandemlift.core.types import GRAVITY

@@ -1,0 +1,93 @@
+"""What the functions of a flight's parts read of a mission, by the names of their arguments.
+
+A fact is a table of the mission or another of its attributes, or what `MADE` makes of other facts. So a function has
+what it needs in its signature, and tests call it without a mission.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import reduce
+from typing import Any
+
+from tandemlift.core.algebra import minimum
+from tandemlift.core.part import Part
+from tandemlift.core.types import Number
+from tandemlift.core.vector import Absent
+from tandemlift.missions.acting import holds
+from tandemlift.missions.mission import PARTS, Mission
+from tandemlift.parts.controllers.interface import tilt_limit_of
+from tandemlift.parts.guidance.compliance_table import push_filters
+from tandemlift.parts.guidance.start_guidance import phase_settings
+from tandemlift.parts.rotors.allocation import mixer_of
+from tandemlift.parts.rotors.rotor_faults import known_faults
+from tandemlift.parts.sensors.sensors_table import steps_of
+
+
+def _least_tilt(controller: Number | None, guidance: Number) -> Number:
+    return guidance if controller is None else minimum(guidance, controller)
+
+
+MADE: Mapping[str, Callable[..., Any]] = {
+    "step": lambda mission: mission.step,  # s: sampling time of the pilot
+    "end": lambda mission: mission.duration,  # s
+    "vehicle": lambda nominal: nominal,  # as the pilot assumes it
+    "weight": lambda nominal: nominal.weight,  # N
+    "effect": lambda nominal: mixer_of(nominal),  # the wrench of its rotors' thrusts
+    "known": lambda faults, nominal: known_faults(faults, nominal),  # the rotor faults that the pilot knows of
+    "hovers": lambda actuators: actuators.start == "hover",  # whether the rotors do so from the start
+    "guidance": lambda pilot: pilot.guidance,
+    "interactive": lambda guidance: guidance == "interactive",
+    "supervised": lambda supervision: supervision.model == "on",
+    "push": lambda pilot: pilot.push,
+    "joints": lambda estimator: estimator.wrench in ("joints", "fused"),  # whether joint sensors measure the push
+    "interval": lambda sensors, step: step * steps_of(sensors.interval, step),  # s: sampling time of the estimators
+    "method": lambda allocation: allocation.method,
+    "limited": lambda method: method == "constrained",  # whether the allocation knows what the rotors can give
+    "threshold": lambda admittance: admittance.threshold,  # N
+    "moment_threshold": lambda compliance: compliance.yaw.threshold,  # N m
+    "max_lead_angle": lambda compliance: compliance.yaw.max_lead_angle,  # rad
+    "max_tilt": lambda controller, compliance: tilt_limit_of(controller) or compliance.max_tilt,  # rad
+    "guidance_tilt": lambda controller, compliance: _least_tilt(tilt_limit_of(controller), compliance.max_tilt),  # rad
+    "push_filters": push_filters,
+    "phase_settings": phase_settings,
+}
+
+
+class Facts(dict[str, Any]):
+    """The facts of a mission by name, each made once, when it is first read."""
+
+    def __init__(self, mission: Mission) -> None:
+        super().__init__()
+        self.of = mission
+
+    def __missing__(self, name: str) -> Any:
+        if name == "started":  # not kept: a circle would outlive the numbers that are traced
+            return self.started
+        self[name] = made = self.call(MADE[name]) if name in MADE else getattr(self.of, name)
+        return made
+
+    def call(self, function: Callable[..., Any], own: Mapping[str, Any] | None = None) -> Any:
+        """A function of facts; `own`: other arguments by name."""
+        code = function.__code__
+        names = code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
+        return function(**{name: own[name] if own and name in own else self[name] for name in names})
+
+    def ask(self, part: Part, function: Callable[..., Any], **own: Any) -> Any:
+        """A function that a part declares."""
+        return self.call(function, {"table": reduce(getattr, part.key.split("."), self.of), **own})
+
+    def has(self, part: Part) -> bool:
+        """Whether the mission has a part."""
+        return all(holds(self.of, condition) for condition in part.acts.split(" and ") if condition)
+
+    def started(self, within: str) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Parameters and memory of the parts within something before the first sample, by name; of others `Absent`."""
+        parameters, memory = dict[str, Any](), dict[str, Any]()
+        for part in PARTS:
+            if part.within == within and ((has := self.has(part)) or part.name not in parameters):
+                begun: Any = self.ask(part, part.start) if has else Absent()
+                k, m = begun if has and part.remembers else (begun, Absent())
+                parameters[part.name] = k
+                memory |= {part.name: m} if part.remembers else {}
+        return parameters, memory
