@@ -20,11 +20,9 @@ Edits = dict[str, list[tuple[str, str]]]  # texts to be replaced by others, by f
 SPIN_UP = "    spin_up_time: NonNegative = key("
 NEW_KEY = '    max_force: NonNegative = key(100.0, "N", "largest push that moves the reference", source="chosen")\n'
 KEY: Edits = {
-    "parts/guidance/compliance_table.py": [
+    "parts/guidance/compliance.py": [
         (SPIN_UP, NEW_KEY + SPIN_UP),
         ("vec3(c.max_jerk), c.braking_gain)", "vec3(c.max_jerk), c.braking_gain, c.max_force)"),
-    ],
-    "parts/guidance/compliance.py": [
         ("    jerk: Vec3\n    braking_gain: Number\n", "    jerk: Vec3\n    braking_gain: Number\n    force: Number\n"),
         ("with_policy(eased, output.value)", "with_policy(eased, clip(output.value, -k.limits.force, k.limits.force))"),
     ],

@@ -17,7 +17,7 @@ from tandemlift.core.vector import Absent
 from tandemlift.missions.acting import holds
 from tandemlift.missions.mission import PARTS, Mission
 from tandemlift.parts.controllers.interface import tilt_limit_of
-from tandemlift.parts.guidance.compliance_table import push_filters
+from tandemlift.parts.guidance.compliance import push_filters
 from tandemlift.parts.guidance.start_guidance import phase_settings
 from tandemlift.parts.rotors.allocation import mixer_of
 from tandemlift.parts.rotors.rotor_faults import known_faults

@@ -30,7 +30,7 @@ from tandemlift.parts.estimation.push_confirmation import CONFIRMATION
 from tandemlift.parts.flight_checks.loop_checks import ControlLoop, push_feedback, reading_delays
 from tandemlift.parts.guidance.above_ground import CLEARANCE
 from tandemlift.parts.guidance.admittance import AdmittanceTable, with_feel
-from tandemlift.parts.guidance.compliance_table import ComplianceTable
+from tandemlift.parts.guidance.compliance import ComplianceTable
 from tandemlift.parts.guidance.contact_hold import CONTACT_HOLD
 from tandemlift.parts.guidance.energy_tank import TANK
 from tandemlift.parts.guidance.following import FOLLOWING

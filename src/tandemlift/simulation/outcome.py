@@ -16,7 +16,7 @@ from tandemlift.core.trajectories import PhasesTable
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Absent, Vec3, dot
 from tandemlift.flight.record import Ending
-from tandemlift.parts.guidance.compliance_table import ComplianceTable
+from tandemlift.parts.guidance.compliance import ComplianceTable
 from tandemlift.parts.guidance.fault_detection import distance_outside
 from tandemlift.parts.guidance.requests import RequestTable
 from tandemlift.parts.mechanics.rigid_body import State

@@ -13,15 +13,8 @@ from tandemlift.core.low_pass import LowPass, LowPassState
 from tandemlift.core.phases import GUIDED
 from tandemlift.core.trajectories import SmoothStep
 from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
-from tandemlift.parts.guidance.compliance import (
-    BIAS_CLIP,
-    QUIET_TIME,
-    DeadBand,
-    DeadBandState,
-    compensated_push,
-    compliance_step,
-    dead_band,
-)
+from tandemlift.parts.guidance.compliance import compensated_push, compliance_step
+from tandemlift.parts.guidance.dead_band import BIAS_CLIP, QUIET_TIME, DeadBand, DeadBandState, dead_band
 from tandemlift.parts.guidance.energy_tank import EnergyTank, EnergyTankState, passivity_damping
 from tandemlift.parts.guidance.phases import PhaseOutput
 from tandemlift.parts.guidance.yaw_compliance import YawCompliance, YawState, yaw_step

@@ -12,7 +12,7 @@ from tandemlift.core.trajectories import PhasesTable
 from tandemlift.core.types import GRAVITY
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.guidance.admittance import AdmittanceTable
-from tandemlift.parts.guidance.compliance_table import ComplianceTable
+from tandemlift.parts.guidance.compliance import ComplianceTable
 from tandemlift.parts.mechanics.push import PushTable
 from tandemlift.parts.rotors.hover import HoverFacts
 

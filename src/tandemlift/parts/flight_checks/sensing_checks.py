@@ -16,7 +16,7 @@ from tandemlift.core.types import Array
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.flight_checks.hover_loads import SIGMAS, WindOnParts
 from tandemlift.parts.flight_checks.schedule_checks import Schedule
-from tandemlift.parts.guidance.compliance_table import ComplianceTable
+from tandemlift.parts.guidance.compliance import ComplianceTable
 from tandemlift.parts.guidance.guidance import PilotTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.sensors.sensors_table import SensorsTable, noise_scale

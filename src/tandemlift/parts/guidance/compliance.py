@@ -13,66 +13,31 @@ Passivity: `parts.guidance.energy_tank`. Yaw: `parts.guidance.yaw_compliance`.
 
 from __future__ import annotations
 
-from typing import Generic, NamedTuple
+from typing import NamedTuple
 
-from tandemlift.core.algebra import absolute, chosen, clip, maximum, minimum, sqrt, where
+from tandemlift.core.algebra import chosen, clip, maximum, minimum, sqrt
+from tandemlift.core.keys import TRIAL, Bandwidth, Delay, Fraction, NonNegative, Positive, Positive3, Table, Tilt, key
 from tandemlift.core.law import choice, elementwise, law
-from tandemlift.core.low_pass import LowPass, LowPassState, V, low_pass_step
+from tandemlift.core.low_pass import LowPass, LowPassState, low_pass, low_pass_step
+from tandemlift.core.part import Started
 from tandemlift.core.types import Number
-from tandemlift.core.vector import ZERO, Absent, Vec3
+from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.parts.guidance.admittance import (
     Admittance,
     AdmittanceState,
+    AdmittanceTable,
+    admittance_from,
     admittance_response,
     anchored,
-    soft_threshold,
 )
 from tandemlift.parts.guidance.alternation import Alternation, AlternationState, alternation_step, calmed
-from tandemlift.parts.guidance.policy import Policy, with_policy
+from tandemlift.parts.guidance.dead_band import DeadBand, DeadBandState, PushFilters, dead_band
+from tandemlift.parts.guidance.energy_tank import TankTable
+from tandemlift.parts.guidance.following import FollowingTable
+from tandemlift.parts.guidance.policy import Policy, PolicyTable, with_policy
 from tandemlift.parts.guidance.requests import ReferenceVelocity
-
-QUIET_TIME = 2.0  # s without a push, after which the bias is estimated
-BIAS_CLIP = 0.3  # of the threshold: the largest deviation from the mean that counts for the bias
-BIAS_RATE = 0.5  # 1/s, at which the bias follows the mean, with a lag of two seconds
-
-
-class DeadBand(NamedTuple, Generic[V]):
-    """Threshold [N] above which a push is active, and `release` [N] below which it ends; `dwell` [s] before it starts.
-
-    `bias_rate` [1/s]: of the mean that becomes the bias, while no push was active for `QUIET_TIME`.
-    """
-
-    threshold: V
-    release: V
-    dwell: Number
-    bias_rate: Number
-
-
-class PushFilters(NamedTuple):
-    """The filters of a push before and after its dead band."""
-
-    input: LowPass
-    output: LowPass
-    release_fraction: Number
-    dwell: Number
-    bias_time_constant: Number
-
-    def dead_band(self, threshold: V) -> DeadBand[V]:
-        """The dead band for a threshold [N or N·m]."""
-        return DeadBand(threshold, threshold * self.release_fraction, self.dwell, 1.0 / self.bias_time_constant)
-
-
-class DeadBandState(NamedTuple, Generic[V]):
-    """Memory: 1 while a push is active, else 0; times [s] above the threshold, and without an active push; bias.
-
-    The bias follows the `mean` with a lag, and the mean returns to it if a push begins.
-    """
-
-    active: V
-    above_time: V
-    inactive_time: V
-    mean: V
-    bias: V
+from tandemlift.parts.guidance.yaw_compliance import YawTable
+from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
 class MotionLimits(NamedTuple):
@@ -126,53 +91,6 @@ class ComplianceState(NamedTuple):
     acceleration: Vec3
     jerk: Vec3
     anchor: Vec3
-
-
-@elementwise
-def is_active(
-    active: Number, above_time: Number, force: Number, threshold: Number, release: Number, dwell: Number
-) -> Number:
-    """1 while a push is active: once it was above the threshold for the dwell, until it is below the release."""
-    begins = where(absolute(force) > threshold, where(above_time < dwell, 0.0, 1.0), 0.0)
-    return where(active > 0.0, where(absolute(force) < release, 0.0, 1.0), begins)
-
-
-@elementwise
-def time_above(above_time: Number, force: Number, threshold: Number, dt: Number) -> Number:
-    """The time for which a push has been above the threshold [s]."""
-    return where(absolute(force) > threshold, above_time + dt, 0.0)
-
-
-@elementwise
-def time_inactive(inactive_time: Number, active: Number, dt: Number) -> Number:
-    """The time without an active push [s]."""
-    return (inactive_time + dt) * (1.0 - active)
-
-
-@elementwise
-def bias_input(force: Number, bound: Number, inactive_time: Number) -> Number:
-    """The input of the mean: the force within a bound, once no push was active for `QUIET_TIME`."""
-    return where(inactive_time < QUIET_TIME, 0.0, clip(force, -bound, bound))
-
-
-@elementwise
-def unless_active(active: Number, old: Number, new: Number) -> Number:
-    """The old value while a push is active, else the new one."""
-    return where(active > 0.0, old, new)
-
-
-@law
-def dead_band(k: DeadBand[V], m: DeadBandState[V], force: V, enabled: Number, dt: Number) -> tuple[V, DeadBandState[V]]:
-    """(the part of an active force beyond the threshold, the new memory); while `enabled` is 0, no push is active."""
-    f = force - m.bias
-    above = time_above(m.above_time, f, k.threshold, dt) * enabled
-    active = is_active(m.active, above, f, k.threshold, k.release, k.dwell) * enabled
-    inactive = time_inactive(m.inactive_time, active, dt) * enabled
-    deviation = bias_input(force - m.mean, k.threshold * BIAS_CLIP, inactive)
-    # a push that begins resets the mean, so that what came before the dwell does not become bias
-    mean = unless_active(active, m.bias, m.mean + deviation * (k.bias_rate * dt))
-    bias = m.bias + (mean - m.bias) * (BIAS_RATE * dt)
-    return soft_threshold(f, k.threshold) * active, DeadBandState(active, above, inactive, mean, bias)
 
 
 @elementwise
@@ -298,3 +216,119 @@ def start_compliance(position: Vec3, alternation: AlternationState) -> Complianc
         jerk=ZERO,
         anchor=position,
     )
+
+
+# ---- The table, and the start
+
+
+class ComplianceTable(Table, acts='pilot.guidance = "interactive"'):
+    """`[compliance]`: interactive guidance, around mass, damping, stiffness and threshold of `[admittance]`.
+
+    It applies where `pilot.guidance = "interactive"`: measured push → low-pass → dead band → low-pass → admittance →
+    limits.
+    Accelerations are limited as well by the thrust that weight and disturbance leave to the rotors.
+    """
+
+    input_bandwidth: Bandwidth = key(
+        36.0, "rad/s", "bandwidth of the second-order low-pass filter on the measured push", source=TRIAL
+    )
+    output_bandwidth: Bandwidth = key(
+        60.0, "rad/s", "bandwidth of the second-order low-pass filter after the dead band", source=TRIAL
+    )
+    release_fraction: Fraction = key(
+        0.67, "1", "a push ends below this fraction of the threshold", source="chosen: a hysteresis of a third"
+    )
+    dwell: NonNegative = key(
+        0.016, "s", "time for which a force must exceed the threshold before it counts as a push", source="chosen"
+    )
+    bias_time_constant: Positive = key(
+        20.0,
+        "s",
+        "time constant with which the mean of the measured push is learned as a bias while nobody pushes",
+        source="chosen: slow against any push",
+    )
+    max_speed: Positive3 = key(
+        (2.0, 2.0, 1.0), "m/s", "largest speed of the reference along each axis", source="chosen"
+    )
+    max_acceleration: Positive3 = key((3.0, 3.0, 3.0), "m/s²", "largest acceleration of the reference", source="chosen")
+    max_jerk: Positive3 = key((15.0, 15.0, 15.0), "m/s³", "largest jerk of the reference", source="chosen")
+    braking_gain: Positive = key(4.0, "1/s", "braking gain b: acceleration ≤ b · (max_speed − speed)", source="chosen")
+    max_tilt: Tilt = key(
+        0.5, "rad", "largest tilt for accelerations", source="chosen: 29°, where hover needs 14 % more thrust"
+    )
+    thrust_fraction: Fraction = key(
+        0.9, "1", "fraction of the largest thrust that accelerations may use", source="chosen: leaves 10 % for control"
+    )
+    force_lead: Delay = key(
+        0.11, "s", "lead time of the compensated push, against the delay of filters and rotors", source=TRIAL
+    )
+    moment_lead: Delay = key(0.06, "s", "lead time of the compensated push's moment", source=TRIAL)
+    reference_lead: Delay = key(0.11, "s", "lead time of the reference's acceleration", source=TRIAL)
+    vertical_force_lead: Delay | None = key(
+        None, "s", "force_lead along z, where no tilt delays the thrust", unset="that of x and y", example=0.05
+    )
+    vertical_reference_lead: Delay | None = key(
+        None, "s", "reference_lead along z", unset="that of x and y", example=0.03
+    )
+    alternation_share: Positive = key(
+        0.25,
+        "1",
+        "share of the vehicle's least horizontal agility for which a push that alternates may ask; beyond it, less of "
+        "its fast part is followed and compensated; 1000 for no limit",
+        source="chosen: shakes of 4 N from 0.5 to 10 Hz",
+    )
+    mass_feedforward: bool = key(
+        False, None, "whether the mass that a tare identifies is accelerated, too, with the reference", source="off"
+    )
+    touchdown_depth: NonNegative = key(
+        0.03, "m", "depth below the ground at which a landing's reference ends, so that the feet press", source="chosen"
+    )
+    min_height: NonNegative = key(
+        0.1,
+        "m",
+        "height above the ground of the lift, below which a push moves the reference no further down; "
+        "where there is a floor",
+        source="chosen: far above the depth of a landing",
+    )
+    spin_up_time: NonNegative = key(0.3, "s", "time from the start of the rotors to the lift", source="chosen")
+    max_descent_speed: Positive = key(0.3, "m/s", "largest speed of a landing", source="chosen")
+    following: FollowingTable = FollowingTable()
+    yaw: YawTable = YawTable()
+    tank: TankTable = TankTable()
+    policy: PolicyTable = PolicyTable()
+
+
+def push_filters(compliance: ComplianceTable, step: float) -> PushFilters:
+    """The filters of a push, sampled every `step` [s]."""
+    c = compliance
+    before, after = low_pass(c.input_bandwidth, step), low_pass(c.output_bandwidth, step)
+    return PushFilters(before, after, c.release_fraction, c.dwell, c.bias_time_constant)
+
+
+def compliance_from(
+    started: Started,
+    compliance: ComplianceTable,
+    admittance: AdmittanceTable,
+    push_filters: PushFilters,
+    vehicle: Vehicle,
+    alternation: Alternation,
+) -> Compliance:
+    """The compliance around an admittance."""
+    c, speed, parts = compliance, vec3(compliance.max_speed), started("compliance")[0]
+    return Compliance(
+        input_filter=push_filters.input,
+        band=push_filters.dead_band(vec3(admittance.threshold)),
+        output_filter=push_filters.output,
+        admittance=admittance_from(admittance),
+        limits=MotionLimits(speed, speed, vec3(c.max_acceleration), vec3(c.max_jerk), c.braking_gain),
+        force_lead=_lead(c.force_lead, c.vertical_force_lead),
+        reference_lead=_lead(c.reference_lead, c.vertical_reference_lead),
+        payload=AssumedPayload(vehicle.payload.mass) if c.mass_feedforward else Absent(),
+        alternation=alternation,
+        **parts,
+    )
+
+
+def _lead(lead: float, vertical: float | None) -> float | Vec3:
+    """A lead time [s], or one for each axis."""
+    return lead if vertical is None else Vec3(lead, lead, vertical)

@@ -15,8 +15,8 @@ from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.guidance.admittance import AdmittanceState, AdmittanceTable, admittance_from, gate_from
 from tandemlift.parts.guidance.alternation import start_alternation
 from tandemlift.parts.guidance.available import start_available
-from tandemlift.parts.guidance.compliance import PushFilters, start_compliance
-from tandemlift.parts.guidance.compliance_table import ComplianceTable, compliance_from
+from tandemlift.parts.guidance.compliance import ComplianceTable, compliance_from, start_compliance
+from tandemlift.parts.guidance.dead_band import PushFilters
 from tandemlift.parts.guidance.guidance import flight_spans
 from tandemlift.parts.guidance.hand_guidance import HandGuidance, HandGuidanceChannels, HandGuidanceState
 from tandemlift.parts.guidance.phases import PhaseSettings, start_phases

@@ -18,7 +18,7 @@ from tandemlift.core.part import Part
 from tandemlift.core.trajectories import PhasesTable
 from tandemlift.core.types import Number, filled, number
 from tandemlift.core.vector import Absent
-from tandemlift.parts.guidance.compliance import DeadBand, DeadBandState, PushFilters, dead_band
+from tandemlift.parts.guidance.dead_band import DeadBand, DeadBandState, PushFilters, dead_band
 from tandemlift.parts.guidance.phases import PhaseOutput
 from tandemlift.parts.mechanics.rigid_body import InitialTable
 from tandemlift.parts.mechanics.rotation import heading_from, wrap_angle
