@@ -47,7 +47,7 @@ def cached(function: F) -> F:
         if found is None:
             found = same[key] = equal(_Said(args)), args
             if len(same) > KEPT:
-                same.pop(next(iter(same), None), None)  # another thread may have made it empty
+                same.pop(next(iter([*same]), None), None)  # of a copy: another thread may change it, or make it empty
         return found[0]
 
     return call  # type: ignore[return-value]
