@@ -1,6 +1,8 @@
 """Results are kept for the same tables and for equal ones, never for others."""
 
 import math
+import sys
+from concurrent.futures import ThreadPoolExecutor
 
 from tandemlift.core.caching import KEPT, LastUsed, cached
 from tandemlift.core.vector import Absent, vec3
@@ -64,3 +66,18 @@ def test_what_was_used_last_is_kept_and_no_more():
         assert kept.of(key, lambda key=key: made.append(key) or key.upper()) == key.upper()
     assert made == ["a", "b", "c", "b"]
     assert list(kept) == ["a", "b"]
+
+
+def test_threads_that_fill_a_cache_together_do_not_disturb_each_other():
+    """Four of six threads raised before, as each drops the oldest result while others add theirs."""
+    same, before = cached(lambda said: said), sys.getswitchinterval()
+
+    def fill(number):
+        return [same((number, i)) == (number, i) for i in range(20_000)]
+
+    sys.setswitchinterval(1e-6)
+    try:
+        with ThreadPoolExecutor(6) as pool:
+            assert all(map(all, pool.map(fill, range(6))))
+    finally:
+        sys.setswitchinterval(before)
