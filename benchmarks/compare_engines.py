@@ -105,7 +105,7 @@ def open_loop(engine: str, count: int) -> dict[str, float]:
     def step(state: Any, thrusts: Any) -> Any:
         return traced(advance)(plant, state, NONE, NONE, thrusts, NONE, hand, h)
 
-    like = advance(plant, state, NONE, NONE, rotors(*thrusts_at(0.0, state)), NONE, hand, h)
+    like = advance(plant, state, NONE, NONE, NONE, rotors(*thrusts_at(0.0, state)), NONE, hand, h)
     stepped = compiled(step, state, rotors(*[0.0] * vehicle.rotor_count))
     largest, joints = dict.fromkeys(QUANTITIES, 0.0), {"joint_force": slice(3, 3 + 3 * count)}
     joints["joint_torque"] = slice(3 + 3 * count, 3 + 6 * count)

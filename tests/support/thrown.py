@@ -79,7 +79,7 @@ def step_of(world: World, x: Thrown, given: Given) -> Any:
     plant, s = world.plant, x.state
     near, rotors = near_now(world, s), 4 * len(plant.frame.mass)
     still = each(rotors)(*[0.0] * rotors)
-    moved = advance(plant, s, x.grip, near, still, Absent(), NO_PUSH, given.step)
+    moved = advance(plant, s, Absent(), x.grip, near, still, Absent(), NO_PUSH, given.step)
     on_hull, on_walls = hull_contact_with(plant.floor, s), wall_contact_with(plant.walls, near, plant.frame, s)
     return StepSample(s, x.grip, pressure(on_hull), pressure(on_walls)), Thrown(moved.state, moved.grip)
 

@@ -9,6 +9,7 @@ from tandemlift.compiler.tracer import Symbol
 from tandemlift.core.algebra import where
 from tandemlift.core.law import law
 from tandemlift.core.types import Number, leaves
+from tandemlift.parts.mechanics.structure import seen_state
 from tandemlift.simulation.loop.ending import ending_number, impulse_after, with_aftermath
 from tandemlift.simulation.loop.log_sample import Sample, log_sample
 from tandemlift.simulation.loop.perception import measure
@@ -36,13 +37,15 @@ def finish_vehicle(
     """
     before, noise, limits = model.flight_state, inputs.noise.sensors, model.limits
     attitude = before.state.attitude
-    readings, sensing = measure(model.sensors, before.sensing, before.state, moved.readings, attitude, noise)
+    seen = seen_state(model.plant.structure, before.shape, before.state)
+    readings, sensing = measure(model.sensors, before.sensing, seen, moved.readings, attitude, noise)
     impulse = impulse_after(limits.strike, before.impulse, moved.readings.contact_force, dt)
     number = ending_number(limits, moved.state, impulse)
     crash, ended = with_aftermath(limits.aftermath, before.crash, number, moved.state, impulse, t, dt)
     after = before._replace(
         state=moved.state,
         wind=acting.wind.memory,
+        shape=moved.shape,
         grip=moved.grip,
         touches=moved.touches,
         sensing=sensing,

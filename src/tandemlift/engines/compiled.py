@@ -26,6 +26,7 @@ from tandemlift.engines.compiled_contact import (
     with_contact_force,
     with_load,
 )
+from tandemlift.engines.compiled_structure import moved_body, shape_at_rest
 from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.engines.models.scene import Scene, floor_from, walls_from
 from tandemlift.parts.contact.feet import Floor, FootGrip
@@ -33,44 +34,33 @@ from tandemlift.parts.contact.touches import Touches
 from tandemlift.parts.contact.walls import NearWalls, Walls
 from tandemlift.parts.mechanics.joint_loads import PartLoads, PerfectReadings, perfect_readings, readings_with_load
 from tandemlift.parts.mechanics.parts import Acceleration
-from tandemlift.parts.mechanics.push import CentralPush, PointPush, Push, PushSamples
+from tandemlift.parts.mechanics.push import Push, PushSamples
 from tandemlift.parts.mechanics.rigid_body import (
     Inertia,
     InitialTable,
     RigidBody,
     State,
-    Wrench,
     inertia_value,
     motion,
-    rigid_body_motion,
-    rk4,
 )
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
+from tandemlift.parts.mechanics.structure import Deformation, elastic_readings, structure_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable, PlantTable
 from tandemlift.parts.rotors.allocation import mixer_of, wrench
 
 
 class BodyStep(NamedTuple):
-    """Result of a step of the body: the state after it, the readings at its start, grip of the feet and touches after.
+    """Result of a step of the body: state and deformation after it, readings at its start, grip and touches after.
 
-    `touches`: a `Touches`, or `Absent` without floor.
+    `shape` is `Absent` of a rigid body; `touches`: a `Touches`, or `Absent` without floor.
     """
 
     state: State
+    shape: Deformation | Absent
     readings: PerfectReadings
     grip: Quarters[FootGrip] | Absent
     touches: Touches | Absent
-
-
-@motion.register(BodySurroundings)
-def surrounded_motion(b: BodySurroundings, s: State, u: Wrench, push: CentralPush | PointPush) -> State:
-    """The motion of the body among its surroundings."""
-    plant, q = b.plant, s.attitude
-    free = with_load(b.air, plant.body, q, rigid_body_motion(plant.body, s, u, push))
-    standing = with_load(load_about_center(floor_loads(plant.floor, b, s), plant.frame, q), plant.body, q, free)
-    lying = with_load(load_about_center(hull_loads_in(b, s), plant.frame, q), plant.body, q, standing)
-    return with_load(load_about_center(wall_loads(plant.walls, b, s), plant.frame, q), plant.body, q, lying)
 
 
 @law
@@ -111,6 +101,7 @@ def first_motion(
 def advance(
     plant: CompiledPlant,
     s: State,
+    shape: Deformation | Absent,
     grip: Quarters[FootGrip] | Absent,
     near: NearWalls | Absent,
     thrusts: PerRotor,
@@ -125,26 +116,45 @@ def advance(
     b = BodySurroundings(plant, load_about_center(air, plant.frame, s.attitude), grip, near)
     u = wrench(plant.effect, thrusts)
     struck, q = struck_by_walls(plant.walls, b, s, u, hand.start, dt), s.attitude
-    k1 = motion(b, struck.state, u, hand.start)
-    after = rk4(b, struck.state, k1, u, hand, dt)
-    mean = with_load(load_about_center(struck.loads, plant.frame, q), plant.body, q, k1)
+    moved = moved_body(shape, b, struck, thrusts, air, u, hand, dt)
+    mean = with_load(load_about_center(struck.loads, plant.frame, q), plant.body, q, moved.rate)
     readings = readings_in(b, struck.state, mean, air, thrusts, struck.loads)
-    return BodyStep(after, readings, grip_after(plant.floor, grip, after), Absent())
+    felt = Acceleration(mean.velocity, mean.rates)
+    readings = elastic_readings(plant.structure, plant.frame, struck.state, shape, felt, moved.acceleration, readings)
+    return BodyStep(moved.state, moved.shape, readings, grip_after(plant.floor, grip, moved.state), Absent())
 
 
 @cached
 def readings_at_rest(
     plant: CompiledPlant,
     s: State,
+    shape: Deformation | Absent,
     grip: Quarters[FootGrip] | Absent,
     near: NearWalls | Absent,
     thrusts: PerRotor,
     hand: PushSamples[Push],
 ) -> PerfectReadings:
-    """Perfect readings in still air in state `s` under rotor thrusts [N]."""
+    """Perfect readings in still air in state `s`, deformed as at rest, under rotor thrusts [N]."""
     b = BodySurroundings(plant, Absent(), grip, near)
     k1 = motion(b, s, wrench(plant.effect, thrusts), hand.start)
-    return readings_in(b, s, k1, Absent(), thrusts, Absent())
+    readings, felt = readings_in(b, s, k1, Absent(), thrusts, Absent()), Acceleration(k1.velocity, k1.rates)
+    still = shape if isinstance(shape, Absent) else shape.rates
+    return elastic_readings(plant.structure, plant.frame, s, shape, felt, still, readings)
+
+
+@cached
+def start_shape(
+    plant: CompiledPlant,
+    s: State,
+    grip: Quarters[FootGrip] | Absent,
+    near: NearWalls | Absent,
+    thrusts: PerRotor,
+    hand: PushSamples[Push],
+) -> Deformation | Absent:
+    """The deformation at rest in state `s` under rotor thrusts [N]; `Absent` of a rigid body."""
+    if isinstance(plant.structure, Absent):
+        return Absent()
+    return shape_at_rest(BodySurroundings(plant, Absent(), grip, near), s, thrusts, hand)
 
 
 @cached
@@ -157,7 +167,8 @@ def _inertia(vehicle: Vehicle, plant: PlantTable) -> tuple[Inertia, Inertia]:
 def start_plant(scene: Scene, vehicle: Vehicle, floor: Floor | Absent, walls: Walls | Absent) -> CompiledPlant:
     """The body of a scene, on a floor and between walls, or `Absent`."""
     body = _body(vehicle, scene.plant, scene.disturbance)
-    return _plant(mixer_of(vehicle), body, parts_layout_from(vehicle), floor, walls)
+    structure = structure_of(vehicle, scene.mission.step)
+    return _plant(mixer_of(vehicle), body, parts_layout_from(vehicle), floor, walls, structure)
 
 
 _plant = cached(CompiledPlant)

@@ -34,21 +34,24 @@ from tandemlift.parts.mechanics.rigid_body import (
     apply_inertia,
     at_position,
     motion,
+    rigid_body_motion,
 )
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
+from tandemlift.parts.mechanics.structure import Structure
 from tandemlift.parts.rotors.allocation import Mixer
 
 NO_LOAD = PartLoad(ZERO, ZERO)
 
 
 class CompiledPlant(NamedTuple):
-    """The true body: effect of the rotor thrusts, mass and inertia, parts, floor and walls."""
+    """The true body: effect of the rotor thrusts, mass and inertia, parts, floor and walls, and its modes."""
 
     effect: Mixer
     body: RigidBody
     frame: PartsLayout
     floor: Any
     walls: Any
+    structure: Structure | Absent = Absent()
 
 
 class BodySurroundings(NamedTuple):
@@ -110,6 +113,16 @@ def floor_loads(floor: Floor, b: BodySurroundings, s: State) -> PartLoad:
 def wall_loads(walls: Walls, b: BodySurroundings, s: State) -> PartLoads:
     """Loads of the walls on all parts, or `Absent`."""
     return near_wall_loads(walls, b.near, b.plant.frame, s)
+
+
+@motion.register(BodySurroundings)
+def surrounded_motion(b: BodySurroundings, s: State, u: Wrench, push: Push) -> State:
+    """The motion of the body among its surroundings."""
+    plant, q = b.plant, s.attitude
+    free = with_load(b.air, plant.body, q, rigid_body_motion(plant.body, s, u, push))
+    standing = with_load(load_about_center(floor_loads(plant.floor, b, s), plant.frame, q), plant.body, q, free)
+    lying = with_load(load_about_center(hull_loads_in(b, s), plant.frame, q), plant.body, q, standing)
+    return with_load(load_about_center(wall_loads(plant.walls, b, s), plant.frame, q), plant.body, q, lying)
 
 
 @choice

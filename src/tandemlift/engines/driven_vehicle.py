@@ -192,7 +192,7 @@ def driven_step(b: DrivenBody, s: State, u: DrivenInputs) -> tuple[State, Driven
     moment = u.moment - cross(b.center, apply_transposed(R, u.force))
     plant = b.plant._replace(body=b.plant.body._replace(force=u.force, moment=moment))
     air = wind_loads(b.wind, Absent(), plant.frame, s, ZERO, Absent()).loads
-    moved = advance(plant, s, Absent(), Absent(), thrusts, air, hand, b.step)
+    moved = advance(plant, s, Absent(), Absent(), Absent(), thrusts, air, hand, b.step)
     felt = moved.readings
     return moved.state, DrivenReadings(
         position=s.position + apply(R, b.point),

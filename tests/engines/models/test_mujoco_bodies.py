@@ -97,7 +97,7 @@ def excited(mission, vehicle, seconds):
         q, w = np.array(state.attitude), np.array(state.rates)
         upright = allocation @ [weight, *(-J * (20.0 * q[1:] + 6.0 * w))]  # or it would tumble within seconds
         thrusts = upright + 0.3 * weight / vehicle.rotor_count * np.sin(rate * k * DT + phase)
-        moved = advance(plant, state, Absent(), Absent(), rotors(*thrusts), Absent(), hand, DT)
+        moved = advance(plant, state, Absent(), Absent(), Absent(), rotors(*thrusts), Absent(), hand, DT)
         body.advance(thrusts, CALM, NONE, NONE)
         state = moved.state
         yield state, moved.readings, body
@@ -227,7 +227,7 @@ def test_a_crooked_landing_goes_as_in_the_compiled_engine():
     grip, off, still = start_foot_grip(ground, state), each(8)(*[0.0] * 8), CentralPush(vec3(NONE))
     apart = []
     for _ in range(600):
-        moved = advance(plant, state, grip, Absent(), off, Absent(), PushSamples(still, still, still), DT)
+        moved = advance(plant, state, Absent(), grip, Absent(), off, Absent(), PushSamples(still, still, still), DT)
         state, grip = moved.state, moved.grip
         body.advance(np.zeros(8), CALM, NONE, NONE)
         apart.append(np.abs(body.state - numbers(state))[:3])

@@ -6,16 +6,30 @@ All that others need of the shape of a box, a mesh or bodies are its `hulls`, in
 from __future__ import annotations
 
 import math
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import AfterValidator, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from tandemlift.core.errors import shown
-from tandemlift.core.keys import Exactly3, PerAxis, Positive, Positive3, Size, Table, Triple, key, must
+from tandemlift.core.keys import (
+    Exactly3,
+    Length,
+    PerAxis,
+    Positive,
+    Positive3,
+    Share,
+    Size,
+    Table,
+    Triple,
+    key,
+    must,
+)
 from tandemlift.core.types import Array
+from tandemlift.parts.mechanics.beam_material import MATERIALS, MaterialName, Section
 from tandemlift.parts.mechanics.bodies import Body, ConvexHull, Place, Sides, box_hull, check_corners, convex_hull
 
+DAMPING = 0.01  # ratio, of a beam whose material is not named
 SLENDER = 10.0  # diameters, from which a beam is the thin rod of the paper's Table II: its inertia is 0.8 % less
 
 
@@ -28,8 +42,9 @@ def _principal(inertia: Triple) -> Triple:
 
 Inertia = Annotated[Positive3, AfterValidator(_principal)]
 Areas = Annotated[tuple[Size, Size, Size], PerAxis(3)]
+ELASTIC = ("material", "wall", "bending_stiffness", "torsional_stiffness", "damping")  # keys of a beam that bends
 OWN = {  # keys of one shape
-    **{"beam": ("length", "radius"), "box": ("size",), "mesh": ("mesh", "density", "corners")},
+    **{"beam": ("length", "radius", *ELASTIC), "box": ("size",), "mesh": ("mesh", "density", "corners")},
     "bodies": ("bodies",),
 }
 
@@ -108,6 +123,31 @@ class Payload(
         rule="with inertia, those of a body",
         source="the body axes are principal axes",
     )
+    material: MaterialName | None = key(
+        None,
+        None,
+        "material of a beam that bends and twists",
+        choices={name: m.words for name, m in MATERIALS.items()},
+        rule="with shape 'beam', length and radius; mass, if it is left out, and inertia come from it and the section",
+        unset="the payload is rigid, unless it has a bending_stiffness",
+        example="pine",
+    )
+    section: Literal["solid", "tube"] = key(
+        "solid", None, "section of a beam", choices={"solid": "a full rod", "tube": "a tube with a wall"}
+    )
+    wall: Length | None = key(None, "m", "thickness of the wall of a tube", unset="the beam is no tube", example=0.001)
+    bending_stiffness: Positive | None = key(
+        None, "N m²", "E I of a beam, in both planes", unset="that of material and section", example=115.0
+    )
+    torsional_stiffness: Positive | None = key(
+        None, "N m²", "G J of a beam", rule="with bending_stiffness", unset="that of material and section", example=16.0
+    )
+    damping: Share | None = key(
+        None, "1", "damping ratio of a beam's modes", unset="that of the material", example=0.01
+    )
+    modes: Annotated[int, Field(ge=1, le=12)] = key(
+        6, "1", "elastic modes that are flown, the lowest ones", source="two of bending in each plane, torsion, and one"
+    )
     drag_area: Areas | None = key(
         None,
         "m²",
@@ -118,8 +158,21 @@ class Payload(
     drag_coefficient: Size = key(1.0, "1", "drag coefficient c", source="chosen: a bluff body")
     bodies: tuple[Body, ...] = ()
 
+    @model_validator(mode="before")
+    @classmethod
+    def _mass_of_material(cls, data: Any) -> Any:
+        """Put in the mass of a beam of a material whose mass is left out."""
+        if not isinstance(data, dict) or data.get("mass") is not None or data.get("material") not in MATERIALS:
+            return data
+        length, radius, wall = (data.get(name) for name in ("length", "radius", "wall"))
+        if not all(type(x) in (int, float) and x > 0.0 for x in (length, radius, *([] if wall is None else [wall]))):
+            return data  # which is refused by itself
+        section = Section(radius, max(radius - wall, 0.0) if wall else 0.0)
+        return {**data, "mass": MATERIALS[data["material"]].density * section.area * length}
+
     @model_validator(mode="after")
     def _complete(self) -> Payload:
+        self._check_beam()
         for shape, names in OWN.items():
             for name in names:
                 if shape != self.shape and getattr(self, name) not in (None, ()):
@@ -144,6 +197,47 @@ class Payload(
                 raise must("payload", f"have products of inertia of a body; its principal moments would be {moments}")
         return self
 
+    def _check_beam(self) -> None:
+        """Refuse a beam that bends without what its modes need, and keys of such a beam on a rigid one."""
+        if (self.section == "tube") != (self.wall is not None):
+            raise must("payload", 'have wall with section = "tube", and only with it')
+        if self.wall is not None and self.radius is not None and self.wall >= self.radius:
+            raise must("payload", f"have a wall below the radius, and not {shown(self.wall)} of {shown(self.radius)} m")
+        if (self.bending_stiffness is None) != (self.torsional_stiffness is None):
+            raise must("payload", "have bending_stiffness and torsional_stiffness together")
+        if self.damping is not None and not self.is_elastic:
+            raise must("payload", "have no damping without material or bending_stiffness")
+        if not self.is_elastic or self.shape != "beam":
+            return
+        if self.length is None or self.radius is None:
+            raise must("payload", "have length and radius if the beam bends")
+        if self.inertia is not None or any((*self.products, *self.center_of_mass)):
+            raise must("payload", "have no inertia, products or center_of_mass if the beam bends: they come from it")
+
+    @property
+    def is_elastic(self) -> bool:
+        """Whether it is a beam that bends and twists."""
+        return self.material is not None or self.bending_stiffness is not None
+
+    @property
+    def round_section(self) -> Section:
+        """The section of a beam."""
+        radius = self.radius or 0.0
+        return Section(radius, 0.0 if self.wall is None else radius - self.wall)
+
+    @property
+    def stiffnesses(self) -> tuple[float, float]:
+        """E I and G J of a beam [N m²]; 0 of a rigid one."""
+        made, I = MATERIALS.get(self.material or ""), self.round_section.second_moment  # noqa: E741
+        bending, torsional = (0.0, 0.0) if made is None else (made.E * I, 2.0 * made.G * I)
+        return self.bending_stiffness or bending, self.torsional_stiffness or torsional
+
+    @property
+    def beam_damping(self) -> float:
+        """The damping ratio of the modes of a beam."""
+        made = MATERIALS.get(self.material or "")
+        return self.damping if self.damping is not None else made.damping if made else DAMPING
+
     @property
     def _rod(self) -> tuple[float, float]:
         """Length and radius [m] of a beam; 0 for one that it does not have."""
@@ -158,10 +252,10 @@ class Payload(
             x, y, z = (self.mass * side**2 / 12.0 for side in self.size)
             return (y + z, x + z, x + y)
         length, radius = self._rod
-        across = self.mass * length**2 / 12.0
-        if length < 2.0 * SLENDER * radius:
-            across += self.mass * radius**2 / 4.0
-        return (across, self.mass * radius**2 / 2.0, across)
+        across, around = self.mass * length**2 / 12.0, self.mass * self.round_section.gyration**2
+        if length < 2.0 * SLENDER * radius or self.is_elastic or self.wall is not None:
+            across += around
+        return (across, 2.0 * around, across)
 
     @property
     def tensor(self) -> Array:

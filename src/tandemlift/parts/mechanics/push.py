@@ -53,10 +53,26 @@ class PointPush(NamedTuple):
         return plus(self, other)
 
 
-Push: TypeAlias = CentralPush | PointPush
+@linear
+class BeamPush(NamedTuple):
+    """Pushes on a beam that bends: as of a `PointPush`, and Σ F_i y_i² [N·m²], Σ F_i y_i³ [N·m³], world axes.
+
+    y_i is the place of the point along the beam, so that the work on a mode follows from a cubic of its shape.
+    """
+
+    force: Vec3
+    spread: Mat3
+    second: Vec3
+    third: Vec3
+
+    def __add__(self, other: "BeamPush") -> "BeamPush":  # type: ignore[override]
+        return plus(self, other)
 
 
-P = TypeVar("P", CentralPush, PointPush)
+Push: TypeAlias = CentralPush | PointPush | BeamPush
+
+
+P = TypeVar("P", CentralPush, PointPush, BeamPush)
 P_co = TypeVar("P_co", covariant=True)
 
 
@@ -100,6 +116,34 @@ def _at_point(kind: PointPush, p: GaussianPush, t: Number) -> PointPush:
     return PointPush(F, outer(F, p.point))
 
 
+@push_at.register(BeamPush)
+def _on_beam(kind: BeamPush, p: GaussianPush, t: Number) -> BeamPush:
+    F = gaussian_force(p, t)
+    return on_beam(PointPush(F, outer(F, p.point)), p.point)
+
+
+@law
+def on_beam(push: PointPush, point: Vec3) -> BeamPush:
+    """A push at one point [m, body axes] of a beam that bends; a couple is linear along the beam, and in `spread`."""
+    F, y = push.force, point.y
+    return BeamPush(F, push.spread, F * (y * y), F * (y * y * y))
+
+
+@choice
+def pushed_at(kind: Push, push: PointPush, point: Vec3) -> Push:
+    """A push at one point [m, body axes], as a value of the same type as `kind`."""
+
+
+@pushed_at.register(PointPush)
+def _same(kind: PointPush, push: PointPush, point: Vec3) -> PointPush:
+    return push
+
+
+@pushed_at.register(BeamPush)
+def _along(kind: BeamPush, push: PointPush, point: Vec3) -> BeamPush:
+    return on_beam(push, point)
+
+
 @choice
 def push_moment(push: Push, attitude: Quat) -> Vec3:
     """Moment of a push about the centre of mass, body axes [N·m]."""
@@ -110,8 +154,9 @@ def _no_moment(push: CentralPush, attitude: Quat) -> Vec3:
     return ZERO
 
 
+@push_moment.register(BeamPush)
 @push_moment.register(PointPush)
-def _moment(push: PointPush, attitude: Quat) -> Vec3:
+def _moment(push: PointPush | BeamPush, attitude: Quat) -> Vec3:
     # Σ r × RᵀF, with G = Rᵀ (Σ F rᵀ) = Σ (RᵀF) rᵀ
     R = rotation_from_quaternion(attitude)
     P = push.spread

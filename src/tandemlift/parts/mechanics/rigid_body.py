@@ -6,7 +6,7 @@ diagonal, else a `Mat3`.
 """
 
 import math
-from typing import Annotated, NamedTuple, Protocol, TypeAlias
+from typing import Annotated, Any, NamedTuple, Protocol, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -163,8 +163,11 @@ def turning_about(center: Vec3, attitude: Quat, linear: Vec3, rates: Vec3) -> Ve
     return at_position(cross(rates, center), attitude, linear, rates)
 
 
+S = TypeVar("S", bound=Any)  # a state: that of a rigid body, or with its deformation
+
+
 @choice
-def motion(body: object, s: State, u: Wrench, push: Push) -> State:
+def motion(body: object, s: S, u: Wrench, push: Push) -> S:
     """The rate of change of the state of a body under a wrench and a person's push."""
 
 
@@ -183,6 +186,16 @@ def rigid_body_motion(body: RigidBody, s: State, u: Wrench, push: Push) -> State
         quaternion_rate(s.attitude, s.rates),
         angular,
     )
+
+
+@choice
+def with_unit_quaternion(s: S) -> S:
+    """A state whose attitude has unit norm."""
+
+
+@with_unit_quaternion.register(State)
+def _unit(s: State) -> State:
+    return State(s.position, s.velocity, s.attitude * (1.0 / sqrt(dot(s.attitude, s.attitude))), s.rates)
 
 
 class PushedState(Protocol):
@@ -205,7 +218,7 @@ class PushedState(Protocol):
 
 
 @law
-def rk4(body: object, s: State, k1: State, u: Wrench, hand: PushSamples[Push], dt: Number) -> State:
+def rk4(body: object, s: S, k1: S, u: Wrench, hand: PushSamples[Push], dt: Number) -> S:
     """One classical Runge-Kutta step of `dt` [s] with the wrench held and the push continuous; unit quaternion.
 
     `k1` is the motion at the start.
@@ -214,5 +227,4 @@ def rk4(body: object, s: State, k1: State, u: Wrench, hand: PushSamples[Push], d
     k3 = motion(body, s + k2 * (0.5 * dt), u, hand.middle)
     k4 = motion(body, s + k3 * dt, u, hand.end)
     # the stages need no unit norm; one projection a step keeps the error of the norm from adding up
-    s = s + k1 * (dt / 6.0) + k2 * (dt / 3.0) + k3 * (dt / 3.0) + k4 * (dt / 6.0)
-    return State(s.position, s.velocity, s.attitude * (1.0 / sqrt(dot(s.attitude, s.attitude))), s.rates)
+    return with_unit_quaternion(s + k1 * (dt / 6.0) + k2 * (dt / 3.0) + k3 * (dt / 3.0) + k4 * (dt / 6.0))

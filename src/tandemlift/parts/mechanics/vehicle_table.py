@@ -15,7 +15,9 @@ from tandemlift.core.keys import (
     NonNegative3,
     PerAxis,
     Positive,
+    Positive6,
     Scale,
+    Share,
     Size,
     Table,
     Triple,
@@ -68,6 +70,7 @@ class Quadrotor(
         "thrust_constant max_speed max_thrust lag_up lag_down": 'actuators.model = "rotors"',
         "drag_area drag_coefficient": 'wind.model = "air" or estimator.confirmation = "motion"',
         "feet_spread feet_depth rotor_radius rotor_height guard_radius": 'ground.model = "floor"',
+        "joint_damping": "vehicle.quadrotors.0.joint_stiffness is given",
         "layout arm": "vehicle.quadrotors.0.rotor_positions is left out",
     },
 ):
@@ -149,6 +152,15 @@ class Quadrotor(
         unset="below the quadrotor's centre of mass, at the height of the payload's origin",
         example=[0.0, 1.0, 0.0],
     )
+    joint_stiffness: Positive6 | None = key(
+        None,
+        "N/m, N m/rad",
+        "stiffness of the mount at the joint, along and about the body axes",
+        rule="three of force [N/m], then three of moment [N m/rad]",
+        unset="the mount is rigid",
+        example=[2e4, 2e4, 1e4, 15.0, 15.0, 40.0],
+    )
+    joint_damping: Share = key(0.05, "1", "damping ratio of a mount that gives", source="rubber has 0.05 to 0.15")
     guard_radius: Length = key(
         0.375,
         "m",

@@ -23,7 +23,7 @@ from tandemlift.core.low_pass import LowPass, LowPassState, low_pass_step
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Vec3, apply, cross, dot, outer
 from tandemlift.parts.guidance.requests import NO_REQUEST, OperatorRequest, operator_request
-from tandemlift.parts.mechanics.push import PointPush, Push, PushSamples
+from tandemlift.parts.mechanics.push import PointPush, Push, PushSamples, pushed_at
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import euler_from_quaternion, rotation_from_quaternion, wrap_angle
 from tandemlift.parts.person.tremor import Tremor, TremorNoise, TremorState, tremor_step
@@ -267,13 +267,14 @@ def _guiding(
         trim=bounded(trim, arm.max_force) * holding,
         tremor=tremor_step(arm.tremor, m.tremor, noise),
     )
-    return added(push, push_by(person, after, now, state)), after
+    return added(push, push_by(person, after, now, state), person.grip), after
 
 
 @law
-def added(push: PushSamples[PointPush], hand: PointPush) -> PushSamples[PointPush]:
-    """A push over a step with that of a hand, which is held over it."""
-    return PushSamples(push.start + hand, push.middle + hand, push.end + hand)
+def added(push: PushSamples[PointPush], hand: PointPush, grip: Vec3) -> PushSamples[PointPush]:
+    """A push over a step with that of a hand at its grip [m, body axes], which is held over it."""
+    here = pushed_at(push.start, hand, grip)
+    return PushSamples(push.start + here, push.middle + here, push.end + here)
 
 
 @choice(absent=0.0)

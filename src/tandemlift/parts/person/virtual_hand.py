@@ -104,7 +104,7 @@ def _pulling(
     after = VirtualHandState(
         place, grasp, force, holding=h.held, lift=h.lift, land=h.land, stop=h.stop, enabled=h.enabled
     )
-    return added(push, PointPush(pull, outer(pull, h.grip))), after
+    return added(push, PointPush(pull, outer(pull, h.grip)), h.grip), after
 
 
 @landing_request.register(VirtualHandState)

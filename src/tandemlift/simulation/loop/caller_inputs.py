@@ -14,7 +14,7 @@ from tandemlift.core.law import choice, law
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import ZERO, Absent, Mat3, Quat, Vec3, dot, linear, outer, plus
 from tandemlift.parts.guidance.requests import ReferenceVelocity
-from tandemlift.parts.mechanics.push import CentralPush, PointPush, Push, PushSamples, push_moment
+from tandemlift.parts.mechanics.push import BeamPush, CentralPush, PointPush, Push, PushSamples, on_beam, push_moment
 
 
 class CallerInput(NamedTuple):
@@ -47,7 +47,7 @@ def _moment(push: AddedPush, attitude: Quat) -> Vec3:
 
 
 @choice
-def with_force(push: Push, force: Vec3, point: Vec3) -> AddedPush | PointPush:
+def with_force(push: Push, force: Vec3, point: Vec3) -> AddedPush | PointPush | BeamPush:
     """A push with a further force [N, world axes] at a point [m, body axes]."""
 
 
@@ -59,6 +59,11 @@ def _on_central(push: CentralPush, force: Vec3, point: Vec3) -> AddedPush:
 @with_force.register(PointPush)
 def _on_points(push: PointPush, force: Vec3, point: Vec3) -> PointPush:
     return PointPush(push.force + force, push.spread + outer(force, point))
+
+
+@with_force.register(BeamPush)
+def _on_beam(push: BeamPush, force: Vec3, point: Vec3) -> BeamPush:
+    return push + on_beam(PointPush(force, outer(force, point)), point)
 
 
 @law(absent="push")

@@ -25,6 +25,7 @@ from tandemlift.parts.contact.wall_geometry import WALL, Wall, wall
 from tandemlift.parts.contact.walls import NearWalls, nearest_with, no_walls_near
 from tandemlift.parts.mechanics.push import (
     SUPPORT,
+    BeamPush,
     CentralPush,
     GaussianPush,
     PointPush,
@@ -45,6 +46,7 @@ HALVES = 2 * SPAN + 1
 GAUSSIAN = GaussianPush(ZERO, 0.0, 0.0, ZERO)
 GUST = Gust(ZERO, 0.0, 0.0, 0.0)
 CENTRAL = PushSamples(*[CentralPush(ZERO)] * 3)
+ON_BEAM = PushSamples(*[BeamPush(ZERO, mat3([[0.0] * 3] * 3), ZERO, ZERO)] * 3)
 AT_A_POINT = PushSamples(*[PointPush(ZERO, mat3([[0.0] * 3] * 3))] * 3)
 
 
@@ -109,8 +111,10 @@ def draw_normals(number: Number, draw: Number, key0: Number, key1: Number) -> No
     return normals(number, draw, key0, key1)
 
 
-def push_kind(pushes: Sequence[PushTable], person: PersonTable) -> PushSamples[Push]:
-    """Zero pushes of the type that a flight needs: with a moment only if a push has one."""
+def push_kind(pushes: Sequence[PushTable], person: PersonTable, *, bends: bool) -> PushSamples[Push]:
+    """Zero pushes of the type that a flight needs: with a moment only if a push has one; on a beam that `bends`."""
+    if bends:
+        return ON_BEAM
     central = all(p.point == ZERO for p in pushes) and person.model == "none"
     return CENTRAL if central else AT_A_POINT
 

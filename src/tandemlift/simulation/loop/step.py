@@ -22,6 +22,7 @@ from tandemlift.parts.contact.walls import NearWalls
 from tandemlift.parts.guidance.requests import UNKNOWN_STATUS, operator_request
 from tandemlift.parts.mechanics.push import Push, PushSamples
 from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.structure import Deformation, seen_state
 from tandemlift.parts.mechanics.turbulence import TurbulenceState, WindNoise
 from tandemlift.parts.mechanics.wind import WindModel, WindOutput, wind_loads
 from tandemlift.parts.person.person import Person, PersonState, landing_request, person_step
@@ -84,6 +85,7 @@ class FlightState(NamedTuple):
     state: State
     memory: PilotMemory
     wind: TurbulenceState | Absent
+    shape: Deformation | Absent
     grip: Quarters[FootGrip] | Absent
     near: NearWalls | Absent
     touches: Touches | Absent
@@ -234,7 +236,8 @@ def finish_sample(
     The detectors come last in the state: compiled loops write them only where they changed.
     """
     before, noise = model.flight_state, inputs.noise.sensors
-    readings, sensing = measure(model.sensors, before.sensing, before.state, moved.readings, output.attitude, noise)
+    seen = seen_state(model.plant.structure, before.shape, before.state)
+    readings, sensing = measure(model.sensors, before.sensing, seen, moved.readings, output.attitude, noise)
     sample = log_sample(model, output, acting, moved, inputs)
     impulse = impulse_after(model.limits.strike, before.impulse, moved.readings.contact_force, dt)
     number = ending_number(model.limits, moved.state, impulse)
@@ -244,6 +247,7 @@ def finish_sample(
         state=moved.state,
         memory=output.memory,
         wind=acting.wind.memory,
+        shape=moved.shape,
         grip=moved.grip,
         near=before.near,
         touches=moved.touches,
@@ -267,7 +271,7 @@ def step_body(
 ) -> BodyStep:
     """The body's part of a step."""
     loads = acting.wind.loads
-    moved = advance(plant, before.state, before.grip, before.near, acting.thrusts, loads, hand, dt)
+    moved = advance(plant, before.state, before.shape, before.grip, before.near, acting.thrusts, loads, hand, dt)
     touches = touches_in(before.touches, plant, before.near, before.state, t, dt)
     return moved._replace(touches=touches)
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from tandemlift.core.caching import cached
 from tandemlift.core.phases import FLIES
 from tandemlift.core.vector import ZERO, Absent, each, vec3
-from tandemlift.engines.compiled import plant_from, readings_at_rest, start_state
+from tandemlift.engines.compiled import plant_from, readings_at_rest, start_shape, start_state
 from tandemlift.missions import Mission
 from tandemlift.missions.facts import Facts
 from tandemlift.parts.contact.clearance import Clearance, clearance
@@ -27,6 +27,7 @@ from tandemlift.parts.estimation.navigation import navigator_from, start_navigat
 from tandemlift.parts.estimation.wrench_push import PushInputs, push_and_state
 from tandemlift.parts.guidance.guidance import flight_spans
 from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.structure import seen_state
 from tandemlift.parts.mechanics.wind import wind_noise_of
 from tandemlift.parts.person.person import PersonState
 from tandemlift.parts.person.person_table import PersonTable, Walk, path_legs_from, tremor_noise_of, waypoints_from
@@ -208,15 +209,18 @@ def assemble(mission: Mission) -> AssembledFlight:
     facts.update(chance=np.random.default_rng(seed), walk=walk)
     around, states = facts.started("body")  # the wind is drawn before the sensors: bits hang on the order
     person = around["person"]
-    near, hand = near_walls_from(plant.walls), push_kind(mission.pushes, mission.person)
-    at_rest = lambda: readings_at_rest(plant, state, grip, near, thrusts, hand)  # noqa: E731
-    senses, sensed, noise = start_perception(facts, state, at_rest, over)
+    bends = mission.vehicle.payload.is_elastic
+    near, hand = near_walls_from(plant.walls), push_kind(mission.pushes, mission.person, bends=bends)
+    shape = start_shape(plant, state, grip, near, thrusts, hand)
+    at_rest = lambda: readings_at_rest(plant, state, shape, grip, near, thrusts, hand)  # noqa: E731
+    senses, sensed, noise = start_perception(facts, seen_state(plant.structure, shape, state), at_rest, over)
     far, counted = _clearance(plant.walls, near, plant.frame, state), mission.estimator.error_metrics
     mass, floor = vehicle.mass * mission.plant.mass_scale, mission.ground.model != "none"
     limits = crash_limits_from(mission.crash, mission.supervision, mass, floor=floor)
     flight_state = FlightState(
         state=state,
         memory=memory,
+        shape=shape,
         grip=grip,
         near=near,
         touches=start_touches(plant.floor, plant.walls, vehicle.rotor_count),
