@@ -41,6 +41,13 @@ KINDS = (
         ),
     ),
     FindingKind(
+        "structure-oscillates",
+        "the thrusts of a vehicle whose beam bends or whose mounts give went on swinging: a loop of the pilot drives a "
+        "mode of the structure",
+        "stiffen the beam or its mounts, or lower the controller's gains; `tandemlift check` names the modes",
+        ("findings.structure_thrust", "findings.structure_time"),
+    ),
+    FindingKind(
         "saturated",
         "a rotor that still works was at its limit for long, or for a large fraction of the flight",
         "use stronger rotors or a lighter payload, or lower the controller's gains",

@@ -59,7 +59,7 @@ class MovedBody(NamedTuple):
 def elastic_body(b: BodySurroundings, s: State, thrusts: PerRotor, air: PartLoads | Absent) -> ElasticBody:
     """The constants of a step under rotor thrusts [N] and loads of the air, both held."""
     k: Any = b.plant.structure
-    rotors = quadrotor_wrenches(b.plant.frame, thrusts)
+    rotors: Any = quadrotor_wrenches(b.plant.frame, thrusts)
     none = rotors.thrust * 0.0
     along_z = rotors.moment._replace(x=none, y=none, z=rotors.thrust)
     work = work_on_modes_of_each(k.quadrotors, along_z, rotors.moment)

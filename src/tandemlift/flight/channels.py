@@ -81,6 +81,19 @@ GROUPS: tuple[ChannelGroup, ...] = (
         },
     ),
     ChannelGroup(
+        "With a beam that bends or mounts that give (`vehicle.payload.material`, `joint_stiffness`)",
+        {
+            "deflection": Channel(
+                "m",
+                "body",
+                "place of each quadrotor from that on a rigid payload",
+                3,
+                "quadrotor",
+            ),
+            "slope": Channel("rad", "body", "rotation of each quadrotor from the payload's origin", 3, "quadrotor"),
+        },
+    ),
+    ChannelGroup(
         'With real rotors (`actuators.model = "rotors"`)',
         {
             "rotor_commands": Channel("N", "body z", "commanded thrust of each rotor", 1, "rotor"),

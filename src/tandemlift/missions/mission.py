@@ -42,6 +42,7 @@ from tandemlift.parts.guidance.supervision import SUPERVISION, SupervisionTable
 from tandemlift.parts.guidance.yaw_compliance import HEADING
 from tandemlift.parts.mechanics.push import PushTable
 from tandemlift.parts.mechanics.rigid_body import InitialTable
+from tandemlift.parts.mechanics.structure import STRUCTURE, is_elastic
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable, PlantTable, VehicleTable
 from tandemlift.parts.mechanics.wind import WIND, WindTable
@@ -244,12 +245,18 @@ class Mission(Table):
         return ControlLoop(hover, self.controller, self.observer, readings, push, step)
 
     @property
+    def is_elastic(self) -> bool:
+        """Whether the beam bends or a mount gives."""
+        return is_elastic(Vehicle.from_settings(self.vehicle))
+
+    @property
     def sample_size(self) -> int:
         """Size of a logged sample [bytes]: 8 for its time and for each number of its channels."""
         count, more = len(self.vehicle.quadrotors), self.sensors.additional
         numbers = {
             "time, state, reference, admittance, push, wrench; rotors and joints": 51 + 10 * count,
             "commands of real rotors": (5 + 4 * count) * (self.actuators.model == "rotors"),
+            "deflection of elastic vehicles": 6 * count * self.is_elastic,
             "force of floor and walls": 3 * (self.ground.model == "floor"),
             "readings and estimates": (45 + 6 * count) * (self.sensors.model == "simulated"),
             "additional sensors": sum(ADDITIONAL[s.name].width for s in more if s.name in ADDITIONAL),
@@ -278,7 +285,7 @@ class Mission(Table):
 
 PARTS = [
     *(CONTACT, CONFIRMATION, OBSERVER, BY_SCHEDULE, BY_HAND, FOLLOWING, CONTACT_HOLD, SUPERVISION, EXCITATION),
-    *(HEADING, TANK, POLICY, CLEARANCE, LEAD, DETECTION, WIND, PERSON),
+    *(HEADING, TANK, POLICY, CLEARANCE, LEAD, DETECTION, STRUCTURE, WIND, PERSON),
 ]
 """The optional parts of a flight, in the order of their checks and channels."""
 

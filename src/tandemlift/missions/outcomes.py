@@ -15,6 +15,7 @@ from tandemlift.core.errors import CheckResult, refused, shown, warned
 from tandemlift.core.findings import FindingName
 from tandemlift.core.keys import Fraction, NonNegative, Positive, Table, key
 from tandemlift.parts.guidance.supervision import SupervisionTable
+from tandemlift.parts.mechanics.payload import ELASTIC
 from tandemlift.parts.mechanics.rigid_body import InitialTable
 from tandemlift.parts.sensors.sensors_table import MotionSensor
 
@@ -155,7 +156,13 @@ def promise_of(p: PromiseTable, guidance: str) -> Promise:
     return Promise(distance, p.rms_distance, sinking, p.heading, p.tilt, settled)
 
 
-class FindingsTable(Table, keys_act={"saturated_time saturated_fraction reach_time": 'actuators.model = "rotors"'}):
+class FindingsTable(
+    Table,
+    keys_act={
+        "saturated_time saturated_fraction reach_time": 'actuators.model = "rotors"',
+        "structure_thrust structure_time": ELASTIC,
+    },
+):
     """`[findings]`: thresholds of findings; see docs/reference/outcomes.md."""
 
     ignore: tuple[FindingName, ...] = key((), None, "kinds of findings that are not reported")
@@ -220,6 +227,15 @@ class FindingsTable(Table, keys_act={"saturated_time saturated_fraction reach_ti
     )
     reach_time: NonNegative = key(
         0.1, "s", "time for which the reference may need more thrust than available", source="chosen"
+    )
+    structure_thrust: Positive = key(
+        0.15,
+        "1",
+        "largest RMS by which the thrusts of an elastic vehicle swing, over the rotors' share of the weight",
+        source="chosen: iris in its wind has 0.07",
+    )
+    structure_time: NonNegative = key(
+        1.0, "s", "time for which they may swing so", source="chosen: a push and its echo are over"
     )
     reach_distance: Positive = key(
         2.0,

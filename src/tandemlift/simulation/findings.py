@@ -18,6 +18,7 @@ from tandemlift.simulation.loop.detectors import Detectors
 from tandemlift.simulation.loop.excess import Excess
 from tandemlift.simulation.loop.oscillation import Swings
 from tandemlift.simulation.loop.step import FlightState
+from tandemlift.simulation.loop.thrust_shake import ThrustShake
 from tandemlift.simulation.outcome import landing_time
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.touches import touches_of
@@ -45,6 +46,7 @@ def findings_of(p: FlightPlan, flight_state: FlightState, steps: int, outcome: s
         *_oscillations(d.oscillation.swings, limits),
         *_deviations(d, promise, promise.rms_promised(mission.pilot.guidance), limits.reach_distance, p.dt),
         *_saturations(d.saturation, steps, limits, p.dt),
+        *_shakes(d.shake, limits, p),
         *_out_of_reach(d.reach, p),
         *_unanswered(d.push.unanswered, p, flight_state),
         *_unpushed(d.unpushed.excess, limits.unpushed_distance, p.dt),
@@ -154,6 +156,15 @@ def _saturations(m: Excess | Absent, steps: int, f: FindingsTable, dt: float) ->
     of_time = "longest time with a rotor at its limit", m.stretch, "s", f.saturated_time
     of_flight = "fraction of the time with a rotor at its limit", fraction, "1", f.saturated_fraction
     yield _excess("saturated", text, m, dt, *(of_time if long else of_flight), worst=False)
+
+
+def _shakes(m: ThrustShake | Absent, f: FindingsTable, p: FlightPlan) -> Iterator[Finding]:
+    if isinstance(m, Absent) or m.excess.stretch <= f.structure_time:
+        return
+    swing, limit = math.sqrt(m.excess.worst), math.sqrt(p.model.finding_limits.shake)
+    frequency = math.sqrt(m.change_at_worst / m.excess.worst) / (2.0 * math.pi * p.dt)
+    text = f"the thrusts swing by {swing:.3g} N (root mean square) at {frequency:.3g} Hz"
+    yield _excess("structure-oscillates", text, m.excess, p.dt, f"thrust at {frequency:.3g} Hz", swing, "N", limit)
 
 
 def _out_of_reach(m: Excess | Absent, p: FlightPlan) -> Iterator[Finding]:

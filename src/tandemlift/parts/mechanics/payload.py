@@ -42,15 +42,23 @@ def _principal(inertia: Triple) -> Triple:
 
 Inertia = Annotated[Positive3, AfterValidator(_principal)]
 Areas = Annotated[tuple[Size, Size, Size], PerAxis(3)]
-ELASTIC = ("material", "wall", "bending_stiffness", "torsional_stiffness", "damping")  # keys of a beam that bends
+ELASTIC = (  # whether modes are flown
+    "vehicle.payload.material is given or vehicle.payload.bending_stiffness is given "
+    "or vehicle.quadrotors.0.joint_stiffness is given"
+)
+OF_BEAM = ("material", "wall", "bending_stiffness", "torsional_stiffness", "damping")  # keys of a beam that bends
 OWN = {  # keys of one shape
-    **{"beam": ("length", "radius", *ELASTIC), "box": ("size",), "mesh": ("mesh", "density", "corners")},
+    **{"beam": ("length", "radius", *OF_BEAM), "box": ("size",), "mesh": ("mesh", "density", "corners")},
     "bodies": ("bodies",),
 }
 
 
 class Payload(
-    Table, keys_act={"drag_area drag_coefficient": 'wind.model = "air" or estimator.confirmation = "motion"'}
+    Table,
+    keys_act={
+        "drag_area drag_coefficient": 'wind.model = "air" or estimator.confirmation = "motion"',
+        "modes": ELASTIC,
+    },
 ):
     """`[vehicle.payload]`: a beam along body y, a box, a mesh, bodies, or any with a mass and moments of inertia.
 
@@ -128,7 +136,7 @@ class Payload(
         None,
         "material of a beam that bends and twists",
         choices={name: m.words for name, m in MATERIALS.items()},
-        rule="with shape 'beam', length and radius; mass, if it is left out, and inertia come from it and the section",
+        rule="with length and radius; mass, if it is left out, and inertia come from material and section",
         unset="the payload is rigid, unless it has a bending_stiffness",
         example="pine",
     )
@@ -164,8 +172,8 @@ class Payload(
         """Put in the mass of a beam of a material whose mass is left out."""
         if not isinstance(data, dict) or data.get("mass") is not None or data.get("material") not in MATERIALS:
             return data
-        length, radius, wall = (data.get(name) for name in ("length", "radius", "wall"))
-        if not all(type(x) in (int, float) and x > 0.0 for x in (length, radius, *([] if wall is None else [wall]))):
+        length, radius, wall = (data.get(name, other) for name, other in (("length", 0), ("radius", 0), ("wall", 0)))
+        if not all(type(x) in (int, float) and x >= 0.0 for x in (length, radius, wall)) or not length * radius:
             return data  # which is refused by itself
         section = Section(radius, max(radius - wall, 0.0) if wall else 0.0)
         return {**data, "mass": MATERIALS[data["material"]].density * section.area * length}

@@ -55,15 +55,16 @@ class PointPush(NamedTuple):
 
 @linear
 class BeamPush(NamedTuple):
-    """Pushes on a beam that bends: as of a `PointPush`, and Σ F_i y_i² [N·m²], Σ F_i y_i³ [N·m³], world axes.
+    """Pushes on a beam that bends: as of a `PointPush`, and Σ F_i y_i², Σ F_i y_i³ and Σ F_i y_i⁴, world axes.
 
-    y_i is the place of the point along the beam, so that the work on a mode follows from a cubic of its shape.
+    y_i [m] is the place of the point along the beam, so that the work on a mode follows from a polynomial of its shape.
     """
 
     force: Vec3
     spread: Mat3
     second: Vec3
     third: Vec3
+    fourth: Vec3
 
     def __add__(self, other: "BeamPush") -> "BeamPush":  # type: ignore[override]
         return plus(self, other)
@@ -126,7 +127,7 @@ def _on_beam(kind: BeamPush, p: GaussianPush, t: Number) -> BeamPush:
 def on_beam(push: PointPush, point: Vec3) -> BeamPush:
     """A push at one point [m, body axes] of a beam that bends; a couple is linear along the beam, and in `spread`."""
     F, y = push.force, point.y
-    return BeamPush(F, push.spread, F * (y * y), F * (y * y * y))
+    return BeamPush(F, push.spread, F * (y * y), F * (y * y * y), F * (y * y * y * y))
 
 
 @choice

@@ -14,13 +14,16 @@ from __future__ import annotations
 import functools
 import math
 import operator
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from tandemlift.core.algebra import sqrt
 from tandemlift.core.caching import cached
+from tandemlift.core.errors import CheckResult, judged, refused
 from tandemlift.core.law import choice, law
+from tandemlift.core.part import FlightCheck, Part
 from tandemlift.core.types import Number, PerQuadrotor
 from tandemlift.core.vector import (
     Absent,
@@ -47,12 +50,15 @@ from tandemlift.parts.mechanics.joint_loads import (
     sum_over_set,
 )
 from tandemlift.parts.mechanics.parts import Acceleration
+from tandemlift.parts.mechanics.payload import ELASTIC
 from tandemlift.parts.mechanics.push import BeamPush, CentralPush, PointPush, push_moment
 from tandemlift.parts.mechanics.rigid_body import State, apply_inertia, with_unit_quaternion
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.structure_modes import Modes, Motions, modes_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
+STEEP = 0.1  # rad: sines and angles differ by 0.2 %
+TWIST = 0.25  # m: the place beside the axis at which a twist is compared with a displacement
 REACH = 0.5  # ω · step of the fastest mode: RK4 then adds 2e-4 to its damping ratio and 5e-4 to its period
 DIGITS = 10
 
@@ -117,14 +123,15 @@ class PlaceShapes(NamedTuple):
 
 
 class BeamShapes(NamedTuple):
-    """The payload in each mode at a place r from the vehicle's centre of mass: a + b × r + c y² + d y³.
+    """The payload in each mode at a place r from the vehicle's centre of mass: a + b × r + c y² + d y³ + e y⁴.
 
-    `linear`: a and b. `second` (c) and `third` (d) are `Absent` for a rigid payload on mounts that give.
+    `linear`: a and b. The others (c, d, e) are `Absent` for a rigid payload on mounts that give.
     """
 
     linear: PlaceShapes
     second: Any
     third: Any
+    fourth: Any
 
 
 class Structure(NamedTuple):
@@ -132,7 +139,8 @@ class Structure(NamedTuple):
 
     ω² [rad²/s²] and 2 ζ ω [rad/s] of each; their shapes at the payload's origin, at the quadrotors' centres of mass,
     along the payload, and the straight line nearest to that, by which loads on the payload as a whole act. `seen`: how
-    far the centre of mass seems to move for a sensor at the origin that takes the vehicle for rigid.
+    far the centre of mass seems to move for a sensor at the origin that takes the vehicle for rigid. `bent`: the
+    quadrotors from a rigid payload at its origin.
     """
 
     stiffness: Any
@@ -142,6 +150,7 @@ class Structure(NamedTuple):
     along: BeamShapes
     mean: PlaceShapes
     seen: Any
+    bent: PlaceShapes
 
 
 @cached
@@ -153,15 +162,20 @@ def structure_of(vehicle: Vehicle, step: float) -> Structure | Absent:
     made, middle = modal(len(modes.frequency)), int(np.argmin(np.abs(modes.stations)))
     origin = Motions(modes.payload.displacement[middle], modes.payload.rotation[middle])
     along, mean = _along(vehicle, modes)
+    arms = [origin.at(arm) for arm in vehicle.lever_arms - vehicle.origin]
+    rigid = Motions(*map(np.array, zip(*arms, strict=True)))
     w, ratio = rounded(modes.frequency), rounded(modes.damping)
     return Structure(
         stiffness=made(*(w * w).tolist()),
         damping=made(*(2.0 * ratio * w).tolist()),
         origin=_shapes(origin),
-        quadrotors=PlaceShapes(*[made(*map(spread, np.moveaxis(rounded(x), -1, 0))) for x in modes.quadrotors]),
+        quadrotors=_sets(modes.quadrotors),
         along=along,
         mean=_shapes(mean),
         seen=_vectors(origin.at(-vehicle.origin).displacement),
+        bent=_sets(
+            Motions(modes.quadrotors.displacement - rigid.displacement, modes.quadrotors.rotation - rigid.rotation)
+        ),
     )
 
 
@@ -173,6 +187,12 @@ def rounded(x: Any) -> Any:
 def _vectors(x: Any) -> Any:
     """A vector for each mode, from an array (3 × n)."""
     return modal(x.shape[1])(*map(vec3, rounded(x).T))
+
+
+def _sets(motions: Motions) -> PlaceShapes:
+    """Those of every quadrotor (N × 3 × n)."""
+    made = modal(motions.displacement.shape[-1])
+    return PlaceShapes(*[made(*map(spread, np.moveaxis(rounded(x), -1, 0))) for x in motions])
 
 
 def _shapes(motions: Motions) -> PlaceShapes:
@@ -197,7 +217,7 @@ def _along(vehicle: Vehicle, modes: Modes) -> tuple[BeamShapes, Motions]:
     origin, y = vehicle.origin, modes.stations + vehicle.origin[1]
     if len(y) == 1:
         whole = Motions(displacement[0], rotation[0])
-        return BeamShapes(_shapes(whole.at(-origin)), Absent(), Absent()), whole
+        return BeamShapes(_shapes(whole.at(-origin)), Absent(), Absent(), Absent()), whole
 
     def fitted(degree: int) -> tuple[Motions, list[Any]]:
         powers = np.vander(y, degree + 1, increasing=True)
@@ -206,8 +226,8 @@ def _along(vehicle: Vehicle, modes: Modes) -> tuple[BeamShapes, Motions]:
         turn = np.array([b[2], rotation[:, 1].mean(axis=0), -b[0]])  # of u = a + turn × r, on the beam's axis
         return Motions(a, turn).at(-np.array([origin[0], 0.0, origin[2]])), more
 
-    cubic, (second, third) = fitted(3)
-    return BeamShapes(_shapes(cubic), _vectors(second), _vectors(third)), fitted(1)[0].at(origin)
+    line, curves = fitted(4)
+    return BeamShapes(_shapes(line), *map(_vectors, curves)), fitted(1)[0].at(origin)
 
 
 @law
@@ -252,9 +272,9 @@ def _on_rigid_payload(push: CentralPush | PointPush, k: Structure, attitude: Qua
 def _on_beam(push: BeamPush, k: Structure, attitude: Quat) -> Any:
     R = rotation_from_quaternion(attitude)
     work = _on_rigid_payload(PointPush(push.force, push.spread), k, attitude)
-    second, third = apply_transposed(R, push.second), apply_transposed(R, push.third)
-    bent = [dot(second, c) + dot(third, d) for c, d in zip(k.along.second, k.along.third, strict=True)]
-    return work + type(work)(*bent)
+    second, third, fourth = (apply_transposed(R, x) for x in (push.second, push.third, push.fourth))
+    curves = zip(k.along.second, k.along.third, k.along.fourth, strict=True)
+    return work + type(work)(*[dot(second, c) + dot(third, d) + dot(fourth, e) for c, d, e in curves])
 
 
 @choice(absent="work")
@@ -348,3 +368,90 @@ def seen_state(k: Structure, shape: Deformation, s: State) -> State:
         hamilton(s.attitude, half * (1.0 / sqrt(dot(half, half)))),
         s.rates + spin,
     )
+
+
+class ShapeChannels(NamedTuple):
+    """Where each quadrotor is and how it turned, from its place on a rigid payload at the payload's origin."""
+
+    deflection: Vec3
+    slope: Vec3
+
+
+@law(absent=Absent())
+def shape_channels(k: Structure, shape: Deformation) -> ShapeChannels:
+    """The channels of a deformation: displacement [m] and rotation [rad] of each quadrotor (vectors of sets)."""
+    q = shape.coordinates
+    return ShapeChannels(superposed(k.bent.displacement, q), superposed(k.bent.rotation, q))
+
+
+def structure_refusals(vehicle: Vehicle, step: float) -> Iterator[CheckResult]:
+    """Refusal of a structure of which no mode is slow enough for the step [s]."""
+    if is_elastic(vehicle) and not len(kept_modes(vehicle, step).frequency):
+        lowest = float(modes_of(vehicle).frequency[0])
+        yield refused(
+            f"mission.step = {step:g}: must be at most {REACH / lowest:.2g} s for the lowest mode of the vehicle, "
+            f"{lowest / (2.0 * math.pi):.3g} Hz; or leave out vehicle.payload.material and joint_stiffness: it is rigid"
+        )
+
+
+def structure_checks(vehicle: Vehicle, step: float) -> Iterator[CheckResult]:
+    """The modes that are flown, and the slope of the hovering vehicle."""
+    if not is_elastic(vehicle):
+        return
+    modes = kept_modes(vehicle, step)
+    for i, w in enumerate(modes.frequency.tolist()):
+        subject = f"{mode_in_words(modes, i)}, {w / (2.0 * math.pi):.3g} Hz, damping {modes.damping[i]:.2g}"
+        yield judged("mode", w, REACH / step, "rad/s", "", subject=subject, near=0.0)
+    turn = hover_slopes(modes, vehicle)
+    text = (
+        f"in hover, the quadrotors lean by {turn:.2g} rad, and the model is one of small slopes, up to {STEEP:g} rad: "
+        "stiffen the beam"
+    )
+    yield judged("slope", turn, STEEP, "rad", text)
+
+
+def hover_slopes(modes: Modes, vehicle: Vehicle) -> float:
+    """The largest slope [rad] of a quadrotor in hover, where each carries the same."""
+    thrust = vehicle.weight / vehicle.count
+    q = np.sum(modes.quadrotors.displacement[:, 2], axis=0) * thrust / np.square(modes.frequency)
+    return float(np.abs(modes.quadrotors.rotation @ q).max())
+
+
+def mode_in_words(modes: Modes, i: int) -> str:
+    """The shape of a mode: what bends or twists, and how its ends move."""
+    x, _, z = np.sqrt(np.mean(np.square(modes.payload.displacement[:, :, i]), axis=0))
+    ends = modes.quadrotors
+    twist = TWIST * np.sqrt(np.mean(np.square(ends.rotation[:, 1, i])))
+    kind = int(np.argmax([x, twist, z]))
+    moved = ends.rotation[:, 1, i] if kind == 1 else ends.displacement[:, kind, i]
+    name = ("bends sideways", "twists", "bends up and down")[kind]
+    who = "mounts give, payload" if modes.mounts[i] > 0.5 else "beam"
+    if len(moved) != 2:
+        return f"{who} {name}"
+    return f"{who} {name}, ends {'together' if moved[0] * moved[1] > 0.0 else 'against each other'}"
+
+
+STRUCTURE = Part(
+    *("structure", "plant", "vehicle.payload", ELASTIC, structure_of),
+    remembers=False,
+    refusals=structure_refusals,
+    checks=structure_checks,
+    rows=(
+        FlightCheck(
+            "mode",
+            "angular frequency of each mode that is flown",
+            "that which the step can follow",
+            "rad/s",
+            "a beam that bends, or mounts that give",
+            "`vehicle.payload`, `vehicle.quadrotors.*.joint_stiffness`, `mission.step`",
+        ),
+        FlightCheck(
+            "slope",
+            "largest rotation of a quadrotor against the mean axes in hover",
+            "0.1 rad, up to which displacements are linear",
+            "rad",
+            "a beam that bends, or mounts that give",
+            "`vehicle.payload`, `vehicle.quadrotors.*.joint_stiffness`",
+        ),
+    ),
+)

@@ -76,8 +76,10 @@ class Modes(NamedTuple):
 
     def first(self, count: int) -> Modes:
         """The lowest of them."""
-        part = [Motions(*(x[..., :count] for x in m)) for m in (self.payload, self.quadrotors)]
-        return Modes(self.frequency[:count], self.damping[:count], self.stations, *part, self.mounts[:count])
+        payload, quadrotors = (Motions(*(x[..., :count] for x in m)) for m in (self.payload, self.quadrotors))
+        return Modes(
+            self.frequency[:count], self.damping[:count], self.stations, payload, quadrotors, self.mounts[:count]
+        )
 
 
 def beam_element(h: float, bending: float, per_length: float, gyration: float) -> tuple[Array, Array]:

@@ -40,6 +40,7 @@ from tandemlift.simulation.loop.push_detectors import (
     unpushed_step,
 )
 from tandemlift.simulation.loop.running_metrics import at_limit, counted
+from tandemlift.simulation.loop.thrust_shake import ThrustShake, kept_awake, shake_step
 
 
 class FindingLimits(NamedTuple):
@@ -48,7 +49,7 @@ class FindingLimits(NamedTuple):
     `settled` [s]: start of the promise. Square of the promised distance [m²], the distance below the reference [m], the
     heading [rad]; the smallest cosine of the tilt. `mass` [kg]; the square of the largest `thrust` [N²]. `rate`
     [(rad/s)²]: square of the smallest oscillation of a body rate. `unpushed` [m]: largest motion of the reference
-    without a push.
+    without a push. `shake` [N²]: the largest mean square of the thrusts' deviations of an elastic vehicle.
     """
 
     settled: Number
@@ -62,13 +63,14 @@ class FindingLimits(NamedTuple):
     push: PushLimits
     unpushed: Number
     oscillation: OscillationLimits
+    shake: Number
 
 
 class Detectors(NamedTuple):
     """Memory of the detectors: `awake` is 1 while one of them may have something to remember, else 0.
 
     `steps` in flight once settled, and the sum of the squared distances from the reference in them [m²]. Ideal rotors
-    have no limits: `saturation` and `reach` are `Absent` with them.
+    have no limits: `saturation` and `reach` are `Absent` with them; `shake` is of a rigid vehicle.
     """
 
     awake: Number
@@ -84,6 +86,7 @@ class Detectors(NamedTuple):
     push: PushResponse
     unpushed: UnpushedMotion
     refuted: Excess
+    shake: ThrustShake | Absent
 
 
 class Watched(NamedTuple):
@@ -121,6 +124,7 @@ ASLEEP = Detectors(
     push=NO_RESPONSE,
     unpushed=UNMOVED,
     refuted=NO_EXCESS,
+    shake=Absent(),
 )
 
 
@@ -187,7 +191,7 @@ def detect(model: Any, output: Any, x: Sample, t: Number, dt: Number) -> Detecto
     settled = flying * where(t < k.settled, 0.0, 1.0)
     refuted = dot(w.refuted, w.refuted)
     return Detectors(
-        awake=may_be_found(k, w),
+        awake=kept_awake(m.shake, may_be_found(k, w)),
         steps=m.steps + settled,
         squares=m.squares + w.distance * settled,
         oscillation=oscillation_step(k.oscillation, m.oscillation, w.swings, flying, t),
@@ -202,4 +206,5 @@ def detect(model: Any, output: Any, x: Sample, t: Number, dt: Number) -> Detecto
             k.unpushed, m.unpushed, (w.pushed, w.followed * flying), guidance.admittance.position, place, t, dt
         ),
         refuted=exceed(m.refuted, where(refuted > 0.0, flying, 0.0), refuted, place, t, dt),
+        shake=shake_step(m.shake, k.shake, output.decision.thrusts, settled, place, t, dt),
     )

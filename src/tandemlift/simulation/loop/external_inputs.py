@@ -46,7 +46,7 @@ HALVES = 2 * SPAN + 1
 GAUSSIAN = GaussianPush(ZERO, 0.0, 0.0, ZERO)
 GUST = Gust(ZERO, 0.0, 0.0, 0.0)
 CENTRAL = PushSamples(*[CentralPush(ZERO)] * 3)
-ON_BEAM = PushSamples(*[BeamPush(ZERO, mat3([[0.0] * 3] * 3), ZERO, ZERO)] * 3)
+ON_BEAM = PushSamples(*[BeamPush(ZERO, mat3([[0.0] * 3] * 3), ZERO, ZERO, ZERO)] * 3)
 AT_A_POINT = PushSamples(*[PointPush(ZERO, mat3([[0.0] * 3] * 3))] * 3)
 
 

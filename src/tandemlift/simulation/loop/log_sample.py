@@ -21,6 +21,7 @@ from tandemlift.parts.mechanics.joint_loads import PerfectReadings
 from tandemlift.parts.mechanics.push import push_moment
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.mechanics.rotation import euler_from_quaternion
+from tandemlift.parts.mechanics.structure import ShapeChannels, shape_channels
 from tandemlift.parts.mechanics.wind import WindChannels, wind_channels
 from tandemlift.parts.rotors.allocation import Mixer, achieved_fraction, wrench
 from tandemlift.parts.rotors.rotors import Rotors
@@ -58,6 +59,7 @@ class Sample(NamedTuple):
     rotor_thrusts: PerRotor
     joint_force: Vec3
     joint_torque: Vec3
+    shape: ShapeChannels | Absent
     actuators: ActuatorChannels | Absent
     wind: WindChannels | Absent
     contact: ContactChannels | Absent
@@ -137,6 +139,7 @@ def log_sample(model: Any, output: Any, acting: Any, moved: BodyStep, inputs: An
         rotor_thrusts=acting.thrusts,
         joint_force=readings.joint_force,
         joint_torque=readings.joint_torque,
+        shape=shape_channels(model.plant.structure, model.flight_state.shape),
         actuators=actuator_channels(model.rotors, model.plant.effect, command.wrench, decision.thrusts),
         wind=wind_channels(acting.wind.loads, acting.wind.velocity),
         contact=contact_channels(model.plant.floor, readings),

@@ -229,7 +229,7 @@ def assemble(mission: Mission) -> AssembledFlight:
         impulse=Absent() if isinstance(limits.strike, Absent) else 0.0,
         crash=start_crash(limits, state),
         ended=FLIES,
-        detectors=start_detectors(mission.actuators),
+        detectors=start_detectors(mission.actuators, thrusts, elastic=not isinstance(shape, Absent)),
         **(states | sensed),
     )
     model = FlightModel(

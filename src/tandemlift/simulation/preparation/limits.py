@@ -8,7 +8,7 @@ from typing import Any
 from tandemlift.core.algebra import cos, maximum, minimum, where
 from tandemlift.core.caching import cached
 from tandemlift.core.phases import FLIES, HARD
-from tandemlift.core.types import GRAVITY, Number
+from tandemlift.core.types import GRAVITY, Number, PerRotor
 from tandemlift.core.vector import Absent, Vec3, vec3
 from tandemlift.missions.mission import Mission
 from tandemlift.missions.outcomes import CrashTable, FindingsTable, promise_of
@@ -19,6 +19,7 @@ from tandemlift.parts.rotors.rotors import ActuatorsTable
 from tandemlift.simulation.loop.detectors import ASLEEP, Detectors, FindingLimits, PushLimits
 from tandemlift.simulation.loop.ending import Aftermath, CrashLimits, CrashMemory, OuterFence, Strike
 from tandemlift.simulation.loop.oscillation import OscillationLimits, Swings
+from tandemlift.simulation.loop.thrust_shake import start_shake
 
 
 def crash_limits_from(c: CrashTable, supervision: SupervisionTable, mass: Number, *, floor: bool) -> CrashLimits:
@@ -65,14 +66,14 @@ def finding_limits_from(m: Mission) -> FindingLimits:
             longest=0.5 / f.slowest_oscillation,
             halves=2.0 * f.oscillation_periods,
         ),
+        shake=(f.structure_thrust * vehicle.weight / vehicle.rotor_count) ** 2,
     )
 
 
-def start_detectors(actuators: ActuatorsTable) -> Detectors:
-    """The detectors' memory before the first step."""
-    if actuators.model == "rotors":
-        return ASLEEP
-    return ASLEEP._replace(saturation=Absent(), reach=Absent())
+def start_detectors(actuators: ActuatorsTable, thrusts: PerRotor, *, elastic: bool) -> Detectors:
+    """The detectors' memory before the first step, with the rotors' thrusts [N]."""
+    watched = ASLEEP._replace(shake=start_shake(thrusts)) if elastic else ASLEEP
+    return watched if actuators.model == "rotors" else watched._replace(saturation=Absent(), reach=Absent())
 
 
 @cached
