@@ -180,6 +180,15 @@ def _new_set(count: int) -> Any:
     return componentwise(cls)
 
 
+@functools.cache
+def several(count: int) -> Any:
+    """The class of `count` values that add and scale, such as one for each mode: no set, so never a loop."""
+    name = f"Several{count}"
+    cls = NamedTuple(name, [(f"n{i}", Any) for i in range(count)])  # type: ignore[misc]
+    cls.__module__, cls.__qualname__ = __name__, name
+    return linear(cls)
+
+
 def set_of(values: Sequence[Number] | NumberSet) -> NumberSet:
     """A set of values; a set that is one symbol is one already."""
     return values if is_rolled(values) else each(len(values))(*values)
@@ -196,9 +205,11 @@ def is_set(value: object) -> TypeGuard[NumberSet]:
 
 
 def __getattr__(name: str) -> Any:
-    """Sets by name (`vector.Each8`), so that a fresh process can unpickle a compiled loop that uses them."""
+    """Sets and values by name (`vector.Each8`), so that a fresh process can unpickle a compiled loop that uses them."""
     if name.startswith("Each") and name[4:].isdigit():
         return each(int(name[4:]))
+    if name.startswith("Several") and name[7:].isdigit():
+        return several(int(name[7:]))
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

@@ -48,6 +48,7 @@ from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable, PlantTabl
 from tandemlift.parts.mechanics.wind import WIND, WindTable
 from tandemlift.parts.person.person_table import PERSON, PersonTable
 from tandemlift.parts.pilot.excitation import EXCITATION, ExcitationTable
+from tandemlift.parts.pilot.notch import NOTCHES, NotchTable
 from tandemlift.parts.pilot.rotor_lead import LEAD
 from tandemlift.parts.rotor_loss.detection import DETECTION, DetectionTable
 from tandemlift.parts.rotors.allocation import AllocationTable
@@ -163,6 +164,7 @@ class Mission(Table):
     initial: InitialTable = InitialTable()
     phases: PhasesTable = PhasesTable()
     pushes: tuple[PushTable, ...] = ()
+    notches: tuple[NotchTable, ...] = ()
     disturbance: DisturbanceTable = DisturbanceTable()
     plant: PlantTable = PlantTable()
     pilot: PilotTable = PilotTable()
@@ -285,7 +287,7 @@ class Mission(Table):
 
 PARTS = [
     *(CONTACT, CONFIRMATION, OBSERVER, BY_SCHEDULE, BY_HAND, FOLLOWING, CONTACT_HOLD, SUPERVISION, EXCITATION),
-    *(HEADING, TANK, POLICY, CLEARANCE, LEAD, DETECTION, STRUCTURE, WIND, PERSON),
+    *(HEADING, TANK, POLICY, CLEARANCE, NOTCHES, LEAD, DETECTION, STRUCTURE, WIND, PERSON),
 ]
 """The optional parts of a flight, in the order of their checks and channels."""
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.types import Array, flat
+from tandemlift.core.vector import Absent
 from tandemlift.missions import Mission
 from tandemlift.missions.facts import Facts
 from tandemlift.missions.mission import PARTS, MissionTable
@@ -116,8 +117,30 @@ def flown_to(mission: Mission, at: float | None) -> OperatingPoint:
     plan = FlightPlan(mission)
     _check(plan)
     stepper = Stepper(plan)
+    own = _damp_structure(stepper)
     _fly(stepper, 0, k)
-    return _point(stepper, _after_tare(stepper, k) if at is None else k)
+    k = _after_tare(stepper, k) if at is None else k
+    stepper.a[own.start : own.start + len(own.numbers)] = own.numbers
+    return _point(stepper, k)
+
+
+class OwnDamping(NamedTuple):
+    """The numbers 2 ζ ω of a structure's modes [rad/s], and where they start in those of the flight."""
+
+    start: int
+    numbers: Array
+
+
+def _damp_structure(stepper: Stepper) -> OwnDamping:
+    """Damp the modes of an elastic vehicle critically, so that it comes to rest even where its loops would shake it."""
+    if isinstance(stepper.p.model.plant.structure, Absent):
+        return OwnDamping(0, np.zeros(0))
+    (start, size), (stiffness, _) = (
+        leaf_offset(stepper.p.model, "plant", "structure", name) for name in ("damping", "stiffness")
+    )
+    own = stepper.a[start : start + size].copy()
+    stepper.a[start : start + size] = 2.0 * np.sqrt(stepper.a[stiffness : stiffness + size])
+    return OwnDamping(start, own)
 
 
 def _fly(stepper: Stepper, k: int, end: int) -> None:

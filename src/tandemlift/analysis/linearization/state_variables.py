@@ -101,6 +101,8 @@ UNITS = (  # of a state whose name, without its components, matches first
     ("person.view.yaw", RADIANS),
     ("person.view.yaw_rate", RATE),
     ("person.tremor.*", "N"),
+    ("shape.coordinates.*", "m kg^1/2"),
+    ("shape.rates.*", "m kg^1/2/s"),
     ("grip.*.normal", "N"),
     ("grip.*.x", "m"),
     ("grip.*.y", "m"),

@@ -36,6 +36,7 @@ from tandemlift.core.vector import (
     hamilton,
     linear,
     plus,
+    several,
     spread,
     times,
     total,
@@ -61,25 +62,6 @@ STEEP = 0.1  # rad: sines and angles differ by 0.2 %
 TWIST = 0.25  # m: the place beside the axis at which a twist is compared with a displacement
 REACH = 0.5  # ω · step of the fastest mode: RK4 then adds 2e-4 to its damping ratio and 5e-4 to its period
 DIGITS = 10
-
-_classes: dict[int, Any] = {}
-
-
-def modal(count: int) -> Any:
-    """The class of `count` values, one for each mode; values that add and scale, such as numbers or vectors."""
-    if count not in _classes:
-        name = f"Modal{count}"
-        cls = NamedTuple(name, [(f"m{i}", Any) for i in range(count)])  # type: ignore[misc]
-        cls.__module__, cls.__qualname__ = __name__, name
-        _classes.setdefault(count, linear(cls))
-    return _classes[count]
-
-
-def __getattr__(name: str) -> Any:
-    """Classes of modal values by name, so that a fresh process can unpickle a compiled loop that uses them."""
-    if name.startswith("Modal") and name[5:].isdigit():
-        return modal(int(name[5:]))
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 @linear
@@ -159,7 +141,7 @@ def structure_of(vehicle: Vehicle, step: float) -> Structure | Absent:
     if not is_elastic(vehicle):
         return Absent()
     modes = kept_modes(vehicle, step)
-    made, middle = modal(len(modes.frequency)), int(np.argmin(np.abs(modes.stations)))
+    made, middle = several(len(modes.frequency)), int(np.argmin(np.abs(modes.stations)))
     origin = Motions(modes.payload.displacement[middle], modes.payload.rotation[middle])
     along, mean = _along(vehicle, modes)
     arms = [origin.at(arm) for arm in vehicle.lever_arms - vehicle.origin]
@@ -186,12 +168,12 @@ def rounded(x: Any) -> Any:
 
 def _vectors(x: Any) -> Any:
     """A vector for each mode, from an array (3 × n)."""
-    return modal(x.shape[1])(*map(vec3, rounded(x).T))
+    return several(x.shape[1])(*map(vec3, rounded(x).T))
 
 
 def _sets(motions: Motions) -> PlaceShapes:
     """Those of every quadrotor (N × 3 × n)."""
-    made = modal(motions.displacement.shape[-1])
+    made = several(motions.displacement.shape[-1])
     return PlaceShapes(*[made(*map(spread, np.moveaxis(rounded(x), -1, 0))) for x in motions])
 
 

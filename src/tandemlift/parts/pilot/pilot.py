@@ -1,6 +1,6 @@
 """The pilot: from a measurement to rotor thrusts, the same for every body that it flies.
 
-measured push → guidance (gate, admittance, phases) → reference → controller → wrench → lead → excitation → allocation →
+measured push → guidance (gate, admittance, phases) → reference → controller → wrench → notches → lead → excitation → allocation →
 thrusts, and beside it the disturbance observer and the detection of rotor failures. The pilot is sampled every
 `mission.step`; its outputs are held until the next sample. `simulation.preparation.assemble` makes one from a
 mission.
@@ -8,7 +8,7 @@ mission.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from tandemlift.core.law import law
 from tandemlift.core.types import Number, PerRotor
@@ -35,6 +35,7 @@ from tandemlift.parts.guidance.guidance import PilotInput as PilotInput
 from tandemlift.parts.guidance.hand_guidance import HandGuidance, HandGuidanceState
 from tandemlift.parts.guidance.scheduled_guidance import ScheduledGuidance
 from tandemlift.parts.pilot.excitation import Excitation, excited, excited_lead
+from tandemlift.parts.pilot.notch import Notches, notch_step
 from tandemlift.parts.pilot.rotor_lead import RotorLead, RotorLeadState, lead_step
 from tandemlift.parts.rotor_loss.detection import DetectionState, RotorLossDetection, detection_step, failed_rotors
 from tandemlift.parts.rotors.allocation import AllocationState, ConstrainedAllocation, Mixer, allocate
@@ -46,6 +47,7 @@ class PilotParameters(NamedTuple):
     guidance: ScheduledGuidance | HandGuidance
     observer: DisturbanceObserver | Absent
     controller: object
+    notches: Notches | Absent
     lead: RotorLead | Absent
     allocation: Mixer | ConstrainedAllocation
     detection: RotorLossDetection | Absent
@@ -58,6 +60,7 @@ class PilotMemory(NamedTuple):
     guidance: AdmittanceState | HandGuidanceState
     observer: ObserverState | Absent
     controller: object
+    notches: Any
     lead: RotorLeadState | Absent
     allocation: AllocationState | Absent
     detection: DetectionState | Absent
@@ -126,7 +129,8 @@ def with_command(
     p: PilotParameters, m: PilotMemory, given: ControlInput, command: Command, memory: object, t: Number
 ) -> tuple[Decision, PilotMemory]:
     """(`Decision`, the new memory) once the controller has commanded at time t [s]; `memory` is the controller's."""
-    led, lead = lead_step(p.lead, m.lead, command.wrench)
+    calm, notches = notch_step(p.notches, m.notches, command.wrench)
+    led, lead = lead_step(p.lead, m.lead, calm)
     wrench = excited(p.excitation, led, given.guidance.flying * given.guidance.learning, t)
     thrusts = running(given.guidance.running, allocate(p.allocation, wrench))
     decision = Decision(given.guidance, given.disturbance, command._replace(wrench=wrench), thrusts)
@@ -134,6 +138,7 @@ def with_command(
         guidance=given.guidance_memory,
         observer=given.observer_memory,
         controller=memory,
+        notches=notches,
         lead=lead,
         detection=given.detection_memory,
     )
