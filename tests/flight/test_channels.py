@@ -15,6 +15,7 @@ from tandemlift.parts.estimation.disturbance_observer import DisturbanceChannels
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceChannels
 from tandemlift.parts.guidance.policy import PolicyChannels
 from tandemlift.parts.guidance.supervision import SupervisionChannels
+from tandemlift.parts.mechanics.structure import ShapeChannels
 from tandemlift.parts.mechanics.wind import WindChannels
 from tandemlift.parts.rotor_loss.detection import DetectionChannels
 from tandemlift.simulation.loop.estimate_channels import EstimatedChannels, MeasuredChannels
@@ -28,6 +29,7 @@ from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import RawResult, flight_of
 
 GROUPS = {
+    "shape": ShapeChannels,
     "actuators": ActuatorChannels,
     "wind": WindChannels,
     "contact": ContactChannels,
@@ -79,6 +81,7 @@ def unflown(changes, count=2):
 BARE = {"pilot": {"state": "truth", "push": "truth"}, "phases.rotors": "always"}
 WHOLE = BARE | {
     "pilot": {"state": "truth", "push": "measurement"},
+    "vehicle.payload": {"length": 2.0, "radius": 0.011, "material": "pine"},
     "wind.model": "air",
     "supervision.model": "on",
     "compliance.policy.model": "network",
@@ -86,6 +89,7 @@ WHOLE = BARE | {
     "detection.model": "residual",
 }
 PARTS = {  # a part that a mission may have, what takes it out, and the group of channels that goes with it
+    "shape": {"vehicle.payload.material": None},
     "actuators": {"actuators.model": "ideal", "ground.effect": False},
     "contact": {"ground": {"model": "none", "effect": False}},
     "measured, estimated": BARE | {"sensors.model": "none", "contact.model": "none"},

@@ -196,8 +196,11 @@ def test_the_template_is_a_mission_with_all_that_it_keeps_out_as_well():
     tables["initial"]["euler"] = 0.0
     for name in ("size", "mesh", "density", "corners", "bodies"):  # of other shapes than the beam
         del tables["vehicle"]["payload"][name]
+    for name in ("material", "wall", "bending_stiffness", "torsional_stiffness", "damping"):  # of a beam that bends
+        del tables["vehicle"]["payload"][name]
     for quadrotor in tables["vehicle"]["quadrotors"]:  # two of thrust, constant and speed
         quadrotor.pop("max_thrust", None)
+        quadrotor.pop("joint_stiffness", None)
     del tables["person"]["recording"]  # no such file
     tables["pilot"]["guidance"], tables["sensors"]["model"] = "interactive", "simulated"
     tables["controller"] = {"name": "pid"}  # whose defaults real rotors bear; the paper's gains do not

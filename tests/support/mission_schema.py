@@ -28,6 +28,7 @@ def next_table(table, part):
 
 EVERYTHING = {  # on top of mission iris: one entry of every list of tables, and all that is left out by default
     "admittance": {"feel": {"force": 2.7, "speed": 1.5}},
+    "allocation": {"notches": [{"frequency": 300.0, "axes": ["yaw"]}]},
     "faults": [{"quadrotor": 1, "rotor": 1, "time": 60.0}],
     "wind": {"model": "air", "gusts": [{"velocity": [1.0, 0.0, 0.0], "start": 15.0, "rise": 1.0}]},
     "pilot": {"guidance": "interactive"},

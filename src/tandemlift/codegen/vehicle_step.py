@@ -9,11 +9,9 @@ from tandemlift.compiler.tracer import Symbol
 from tandemlift.core.algebra import where
 from tandemlift.core.law import law
 from tandemlift.core.types import Number, leaves
-from tandemlift.parts.mechanics.structure import seen_state
 from tandemlift.simulation.loop.ending import ending_number, impulse_after, with_aftermath
 from tandemlift.simulation.loop.log_sample import Sample, log_sample
-from tandemlift.simulation.loop.perception import measure
-from tandemlift.simulation.loop.step import Actuation, FlightModel, FlightState, PilotOutput, StepInputs
+from tandemlift.simulation.loop.step import Actuation, FlightModel, FlightState, PilotOutput, StepInputs, sensed
 from tandemlift.simulation.preparation.templates import Templates
 from tandemlift.simulation.preparation.traced_step import TracedStep
 
@@ -37,8 +35,7 @@ def finish_vehicle(
     """
     before, noise, limits = model.flight_state, inputs.noise.sensors, model.limits
     attitude = before.state.attitude
-    seen = seen_state(model.plant.structure, before.shape, before.state)
-    readings, sensing = measure(model.sensors, before.sensing, seen, moved.readings, attitude, noise)
+    readings, sensing = sensed(model, moved, attitude, noise)
     impulse = impulse_after(limits.strike, before.impulse, moved.readings.contact_force, dt)
     number = ending_number(limits, moved.state, impulse)
     crash, ended = with_aftermath(limits.aftermath, before.crash, number, moved.state, impulse, t, dt)

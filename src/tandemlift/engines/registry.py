@@ -14,6 +14,7 @@ from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.plugs import PLUGS, Plug, has
 from tandemlift.core.types import Array
 from tandemlift.engines.models.scene import Scene
+from tandemlift.parts.mechanics.structure import is_elastic
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
@@ -146,6 +147,11 @@ class Engine(NamedTuple):
             InputError: the engine is not installed, or cannot take the scene.
         """
         assert self.load is not None, "the compiled engine has no body of its own"
+        if is_elastic(vehicle):
+            raise InputError(
+                f"engine {self.name!r}: must be 'compiled' for a beam that bends or mounts that give "
+                "(vehicle.payload.material, bending_stiffness, vehicle.quadrotors.*.joint_stiffness); it has rigid ones"
+            )
         return self.load()(scene, vehicle, floor, walls)
 
 

@@ -42,6 +42,7 @@ MADE: Mapping[str, Callable[..., Any]] = {
     "push": lambda pilot: pilot.push,
     "joints": lambda estimator: estimator.wrench in ("joints", "fused"),  # whether joint sensors measure the push
     "interval": lambda sensors, step: step * steps_of(sensors.interval, step),  # s: sampling time of the estimators
+    "notches": lambda allocation: allocation.notches,
     "method": lambda allocation: allocation.method,
     "limited": lambda method: method == "constrained",  # whether the allocation knows what the rotors can give
     "threshold": lambda admittance: admittance.threshold,  # N

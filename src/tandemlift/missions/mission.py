@@ -48,11 +48,11 @@ from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable, PlantTabl
 from tandemlift.parts.mechanics.wind import WIND, WindTable
 from tandemlift.parts.person.person_table import PERSON, PersonTable
 from tandemlift.parts.pilot.excitation import EXCITATION, ExcitationTable
-from tandemlift.parts.pilot.notch import NOTCHES, NotchTable
 from tandemlift.parts.pilot.rotor_lead import LEAD
 from tandemlift.parts.rotor_loss.detection import DETECTION, DetectionTable
 from tandemlift.parts.rotors.allocation import AllocationTable
 from tandemlift.parts.rotors.hover import HoverFacts
+from tandemlift.parts.rotors.notch import NOTCHES
 from tandemlift.parts.rotors.rotor_faults import FaultTable
 from tandemlift.parts.rotors.rotors import ActuatorsTable
 from tandemlift.parts.sensors.sensors_table import SensorFaultTable, SensorsTable
@@ -164,7 +164,6 @@ class Mission(Table):
     initial: InitialTable = InitialTable()
     phases: PhasesTable = PhasesTable()
     pushes: tuple[PushTable, ...] = ()
-    notches: tuple[NotchTable, ...] = ()
     disturbance: DisturbanceTable = DisturbanceTable()
     plant: PlantTable = PlantTable()
     pilot: PilotTable = PilotTable()

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Iterator
 
 from tandemlift.analysis.certification.shakes import shake_checks
+from tandemlift.analysis.certification.structure import structure_in_loop_checks
 from tandemlift.analysis.linearization.linear_model import Mode, modes_of
 from tandemlift.analysis.linearization.linearize import linearize
 from tandemlift.analysis.linearization.loop_margins import (
@@ -64,6 +65,14 @@ LOOP_CHECKS = (
         '`actuators.model = "rotors"`, interactive guidance',
         "`compliance.force_lead`, `compliance.input_bandwidth`, `allocation.priorities`, `vehicle.quadrotors`",
     ),
+    FlightCheck(
+        "structure",
+        "less the damping ratio, in flight, of each mode of a beam that bends or of mounts that give",
+        "0",
+        "1",
+        "a beam that bends, or mounts that give",
+        "`allocation.notches`, `vehicle.payload`, the gains",
+    ),
     FlightCheck("loop mode", "less the damping ratio of each of the least damped modes", "0", "1", "", "the gains"),
 )
 
@@ -82,6 +91,10 @@ def check(mission: MissionLike) -> tuple[CheckResult, ...]:
     if results and results[-1].verdict == REFUSED:
         return results
     try:
+        if mission.is_elastic:
+            results = (*results, *structure_in_loop_checks(mission))
+            if any(r.check == "structure" and r.verdict == FAILS for r in results):
+                return results  # whatever else is flown shakes as well
         if mission.pilot.guidance == "interactive" and mission.actuators.model == "rotors":
             results = (*results, *shake_checks(mission))
         loop = open_loop(mission)

@@ -32,7 +32,7 @@ MATERIALS: dict[str, Material] = {
 }
 
 
-class Section(NamedTuple):
+class RoundSection(NamedTuple):
     """A round section: outer and inner radius [m]."""
 
     outer: float

@@ -26,7 +26,7 @@ from tandemlift.core.keys import (
     must,
 )
 from tandemlift.core.types import Array
-from tandemlift.parts.mechanics.beam_material import MATERIALS, MaterialName, Section
+from tandemlift.parts.mechanics.beam_material import MATERIALS, MaterialName, RoundSection
 from tandemlift.parts.mechanics.bodies import Body, ConvexHull, Place, Sides, box_hull, check_corners, convex_hull
 
 DAMPING = 0.01  # ratio, of a beam whose material is not named
@@ -175,7 +175,7 @@ class Payload(
         length, radius, wall = (data.get(name, other) for name, other in (("length", 0), ("radius", 0), ("wall", 0)))
         if not all(type(x) in (int, float) and x >= 0.0 for x in (length, radius, wall)) or not length * radius:
             return data  # which is refused by itself
-        section = Section(radius, max(radius - wall, 0.0) if wall else 0.0)
+        section = RoundSection(radius, max(radius - wall, 0.0) if wall else 0.0)
         return {**data, "mass": MATERIALS[data["material"]].density * section.area * length}
 
     @model_validator(mode="after")
@@ -228,10 +228,10 @@ class Payload(
         return self.material is not None or self.bending_stiffness is not None
 
     @property
-    def round_section(self) -> Section:
+    def round_section(self) -> RoundSection:
         """The section of a beam."""
         radius = self.radius or 0.0
-        return Section(radius, 0.0 if self.wall is None else radius - self.wall)
+        return RoundSection(radius, 0.0 if self.wall is None else radius - self.wall)
 
     @property
     def stiffnesses(self) -> tuple[float, float]:

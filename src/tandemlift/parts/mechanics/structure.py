@@ -55,7 +55,7 @@ from tandemlift.parts.mechanics.payload import ELASTIC
 from tandemlift.parts.mechanics.push import BeamPush, CentralPush, PointPush, push_moment
 from tandemlift.parts.mechanics.rigid_body import State, apply_inertia, with_unit_quaternion
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.mechanics.structure_modes import Modes, Motions, modes_of
+from tandemlift.parts.mechanics.structure_modes import ElasticModes, Motions, modes_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 STEEP = 0.1  # rad: sines and angles differ by 0.2 %
@@ -186,14 +186,14 @@ def is_elastic(vehicle: Vehicle) -> bool:
     return vehicle.payload.is_elastic or any(q.joint_stiffness is not None for q in vehicle.quadrotors)
 
 
-def kept_modes(vehicle: Vehicle, step: float) -> Modes:
+def kept_modes(vehicle: Vehicle, step: float) -> ElasticModes:
     """The lowest modes of an elastic vehicle, as many as its table has and as steps of time [s] can follow."""
     modes = modes_of(vehicle)
     within = int(np.sum(modes.frequency * step <= REACH))
     return modes.first(min(within, vehicle.payload.modes))
 
 
-def _along(vehicle: Vehicle, modes: Modes) -> tuple[BeamShapes, Motions]:
+def _along(vehicle: Vehicle, modes: ElasticModes) -> tuple[BeamShapes, Motions]:
     """The shapes along the payload from the vehicle's centre of mass, and those nearest to them of a rigid payload."""
     displacement, rotation = modes.payload
     origin, y = vehicle.origin, modes.stations + vehicle.origin[1]
@@ -392,14 +392,14 @@ def structure_checks(vehicle: Vehicle, step: float) -> Iterator[CheckResult]:
     yield judged("slope", turn, STEEP, "rad", text)
 
 
-def hover_slopes(modes: Modes, vehicle: Vehicle) -> float:
+def hover_slopes(modes: ElasticModes, vehicle: Vehicle) -> float:
     """The largest slope [rad] of a quadrotor in hover, where each carries the same."""
     thrust = vehicle.weight / vehicle.count
     q = np.sum(modes.quadrotors.displacement[:, 2], axis=0) * thrust / np.square(modes.frequency)
     return float(np.abs(modes.quadrotors.rotation @ q).max())
 
 
-def mode_in_words(modes: Modes, i: int) -> str:
+def mode_in_words(modes: ElasticModes, i: int) -> str:
     """The shape of a mode: what bends or twists, and how its ends move."""
     x, _, z = np.sqrt(np.mean(np.square(modes.payload.displacement[:, :, i]), axis=0))
     ends = modes.quadrotors

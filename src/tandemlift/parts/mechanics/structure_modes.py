@@ -55,7 +55,7 @@ class Mesh(NamedTuple):
     quadrotors: list[Motions]
 
 
-class Modes(NamedTuple):
+class ElasticModes(NamedTuple):
     """The elastic modes of a free vehicle, mass-normalised, lowest first.
 
     Attributes:
@@ -74,10 +74,10 @@ class Modes(NamedTuple):
     quadrotors: Motions
     mounts: Array
 
-    def first(self, count: int) -> Modes:
+    def first(self, count: int) -> ElasticModes:
         """The lowest of them."""
         payload, quadrotors = (Motions(*(x[..., :count] for x in m)) for m in (self.payload, self.quadrotors))
-        return Modes(
+        return ElasticModes(
             self.frequency[:count], self.damping[:count], self.stations, payload, quadrotors, self.mounts[:count]
         )
 
@@ -170,7 +170,7 @@ def _add_beam(vehicle: Vehicle, stations: Array, nodes: list[Motions], M: Array,
 
 
 @cached
-def modes_of(vehicle: Vehicle, elements: int = ELEMENTS, slender: bool = False) -> Modes:
+def modes_of(vehicle: Vehicle, elements: int = ELEMENTS, slender: bool = False) -> ElasticModes:
     """All elastic modes of a vehicle that is not rigid.
 
     Args:
@@ -191,4 +191,4 @@ def modes_of(vehicle: Vehicle, elements: int = ELEMENTS, slender: bool = False) 
     of_places = lambda motions: Motions(*(np.array(group) @ shapes for group in zip(*motions, strict=True)))  # noqa: E731
     damping = np.array([ratio for _, ratio in mesh.members]) @ energy
     payload, quadrotors = of_places(mesh.nodes), of_places(mesh.quadrotors)
-    return Modes(frequency, damping, mesh.stations, payload, quadrotors, energy[1:].sum(axis=0))
+    return ElasticModes(frequency, damping, mesh.stations, payload, quadrotors, energy[1:].sum(axis=0))

@@ -1,8 +1,8 @@
 """The pilot: from a measurement to rotor thrusts, the same for every body that it flies.
 
-measured push → guidance (gate, admittance, phases) → reference → controller → wrench → notches → lead → excitation → allocation →
-thrusts, and beside it the disturbance observer and the detection of rotor failures. The pilot is sampled every
-`mission.step`; its outputs are held until the next sample. `simulation.preparation.assemble` makes one from a
+measured push → guidance (gate, admittance, phases) → reference → controller → wrench → lead → notches → excitation →
+allocation → thrusts, and beside it the disturbance observer and the detection of rotor failures. The pilot is sampled
+every `mission.step`; its outputs are held until the next sample. `simulation.preparation.assemble` makes one from a
 mission.
 """
 
@@ -35,10 +35,10 @@ from tandemlift.parts.guidance.guidance import PilotInput as PilotInput
 from tandemlift.parts.guidance.hand_guidance import HandGuidance, HandGuidanceState
 from tandemlift.parts.guidance.scheduled_guidance import ScheduledGuidance
 from tandemlift.parts.pilot.excitation import Excitation, excited, excited_lead
-from tandemlift.parts.pilot.notch import Notches, notch_step
 from tandemlift.parts.pilot.rotor_lead import RotorLead, RotorLeadState, lead_step
 from tandemlift.parts.rotor_loss.detection import DetectionState, RotorLossDetection, detection_step, failed_rotors
 from tandemlift.parts.rotors.allocation import AllocationState, ConstrainedAllocation, Mixer, allocate
+from tandemlift.parts.rotors.notch import Notches, notch_step
 
 
 class PilotParameters(NamedTuple):
@@ -129,9 +129,9 @@ def with_command(
     p: PilotParameters, m: PilotMemory, given: ControlInput, command: Command, memory: object, t: Number
 ) -> tuple[Decision, PilotMemory]:
     """(`Decision`, the new memory) once the controller has commanded at time t [s]; `memory` is the controller's."""
-    calm, notches = notch_step(p.notches, m.notches, command.wrench)
-    led, lead = lead_step(p.lead, m.lead, calm)
-    wrench = excited(p.excitation, led, given.guidance.flying * given.guidance.learning, t)
+    led, lead = lead_step(p.lead, m.lead, command.wrench)
+    calm, notches = notch_step(p.notches, m.notches, led)
+    wrench = excited(p.excitation, calm, given.guidance.flying * given.guidance.learning, t)
     thrusts = running(given.guidance.running, allocate(p.allocation, wrench))
     decision = Decision(given.guidance, given.disturbance, command._replace(wrench=wrench), thrusts)
     return decision, m._replace(

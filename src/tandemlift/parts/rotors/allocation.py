@@ -16,6 +16,7 @@ from tandemlift.core.types import Number, PerRotor, number
 from tandemlift.core.vector import Absent, Vec3, dot, set_of, total, vec3
 from tandemlift.parts.mechanics.rigid_body import Wrench
 from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.rotors.notch import NotchTable
 from tandemlift.parts.rotors.rotor_faults import RotorFaults, efficiency_at
 
 AFTER_FAILURE = 0.1  # of the priority of thrust, once a rotor has failed
@@ -80,6 +81,7 @@ class AllocationTable(
     lead_bandwidth: Bandwidth = key(
         200.0, "rad/s", "bandwidth of the low-pass that smooths a wrench with lead time", source="chosen"
     )
+    notches: tuple[NotchTable, ...] = ()
 
 
 class Mixer(NamedTuple):

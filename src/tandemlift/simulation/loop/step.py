@@ -7,7 +7,7 @@ sensor readings of a step at the next one, or later. A part that a mission does 
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from tandemlift.core.algebra import where
 from tandemlift.core.law import law
@@ -222,6 +222,16 @@ def actuate(model: FlightModel, thrusts: PerRotor, inputs: StepInputs, t: Number
 
 
 @law
+def sensed(
+    model: FlightModel, moved: BodyStep, believed: Quat, noise: SensorNoise | Absent
+) -> tuple[Readings | Absent, Any]:
+    """(The readings of a step, the sensors' memory); `believed`: the pilot's estimate of the attitude."""
+    before = model.flight_state
+    seen = seen_state(model.plant.structure, before.shape, before.state)
+    return measure(model.sensors, before.sensing, seen, moved.readings, believed, noise)
+
+
+@law
 def finish_sample(
     model: FlightModel,
     output: PilotOutput,
@@ -236,8 +246,7 @@ def finish_sample(
     The detectors come last in the state: compiled loops write them only where they changed.
     """
     before, noise = model.flight_state, inputs.noise.sensors
-    seen = seen_state(model.plant.structure, before.shape, before.state)
-    readings, sensing = measure(model.sensors, before.sensing, seen, moved.readings, output.attitude, noise)
+    readings, sensing = sensed(model, moved, output.attitude, noise)
     sample = log_sample(model, output, acting, moved, inputs)
     impulse = impulse_after(model.limits.strike, before.impulse, moved.readings.contact_force, dt)
     number = ending_number(model.limits, moved.state, impulse)

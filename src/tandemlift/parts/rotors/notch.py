@@ -31,19 +31,13 @@ def _once(axes: tuple[Axis, ...]) -> tuple[Axis, ...]:
 
 
 class NotchTable(Table):
-    """`[[notches]]`: a notch on the commanded wrench, one table each, at the frequency of a mode of the structure."""
+    """`[[allocation.notches]]`: notches on the commanded wrench, one table each, at the frequencies of modes."""
 
     frequency: Bandwidth = key(..., "rad/s", "frequency ω of the notch", example=40.0)
     axes: Annotated[tuple[Axis, ...], AfterValidator(_once)] = key(
         ...,
         None,
-        "axes of the wrench on which it acts",
-        choices={
-            "thrust": "the thrust",
-            "roll": "the moment about body x",
-            "pitch": "that about y",
-            "yaw": "that about z",
-        },
+        'axes of the wrench on which it acts: "thrust", "roll", "pitch" and "yaw"',
         example=["thrust", "roll"],
     )
     width: Fraction = key(0.5, "1", "damping ratio ζ of its poles", source="chosen: modes are off by up to 20 %")
@@ -118,9 +112,9 @@ def biquad(table: NotchTable, step: float) -> Biquad:
     return Biquad(*coefficients)
 
 
-def start_notches(table: tuple[NotchTable, ...], weight: Number, step: float, *, hovers: bool) -> tuple[Notches, Any]:
+def start_notches(notches: tuple[NotchTable, ...], weight: Number, step: float, *, hovers: bool) -> tuple[Notches, Any]:
     """The notches of a vehicle with a weight [N], and their memory; `hovers`: whether the rotors do at the start."""
-    made, thrust = [biquad(one, step) for one in table], weight if hovers else 0.0
+    made, thrust = [biquad(one, step) for one in notches], weight if hovers else 0.0
     series = several(len(made))
     steady = []
     for k in made:  # at rest the output is the input
@@ -129,4 +123,4 @@ def start_notches(table: tuple[NotchTable, ...], weight: Number, step: float, *,
     return Notches(series(*made)), series(*steady)
 
 
-NOTCHES = Part("notches", "pilot", "notches", "notches is given", start_notches)
+NOTCHES = Part("notches", "pilot", "allocation", "allocation.notches is given", start_notches)

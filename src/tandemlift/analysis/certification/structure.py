@@ -1,0 +1,51 @@
+"""The structure of a vehicle in the loops of its pilot: the damping of each mode of the closed linear model."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+
+from tandemlift.analysis.linearization.linear_model import Mode, modes_of
+from tandemlift.analysis.linearization.linearize import linearize
+from tandemlift.analysis.linearization.loop_margins import NO_KINK, calm_mission
+from tandemlift.core.errors import CheckResult, judged
+from tandemlift.missions.mission import Mission
+from tandemlift.parts.mechanics.structure import kept_modes, mode_in_words
+
+SHAPE = re.compile(r"shape\.(?:coordinates|rates)\.n(\d+)")
+CLOSE_TO_NONE = 0.003  # damping ratio: a mode with less is close to growing
+
+
+def closed_structure(mission: Mission) -> dict[int, Mode]:
+    """The modes of the hovering flight in which each mode of the structure has its largest part, by its number.
+
+    Raises:
+        InputError: the mission cannot be flown to a hover, even with damped modes.
+    """
+    calm, at = calm_mission(mission, slow=1.0)
+    found = dict[int, tuple[float, Mode]]()
+    for mode in modes_of(linearize(calm, at, kink_tolerance=NO_KINK).connected()).modes:
+        for name, share in mode.states:
+            if (part := SHAPE.fullmatch(name)) and mode.frequency > 0.0:
+                i = int(part[1])
+                if i not in found or (mode.damping < 0.0, share) > (found[i][1].damping < 0.0, found[i][0]):
+                    found[i] = share, mode
+    return {i: mode for i, (_, mode) in sorted(found.items())}
+
+
+def structure_in_loop_checks(mission: Mission) -> Iterator[CheckResult]:
+    """Check that no loop of the pilot drives a mode of the structure."""
+    vehicle = mission.nominal
+    modes = kept_modes(vehicle, mission.mission.step)
+    for i, mode in closed_structure(mission).items():
+        own, words = float(modes.frequency[i]) / (2.0 * math.pi), mode_in_words(modes, i)
+        subject = f"{words}: {own:.3g} Hz alone, {mode.frequency:.3g} Hz in flight"
+        text = (
+            f"the {words}, at {mode.frequency:.3g} Hz, which grows by a factor of e in {-mode.time_constant:.2g} s "
+            "because the pilot drives it: add a notch there ([[allocation.notches]]), stiffen the beam or its mounts, "
+            "or lower the gains of [controller]"
+        )
+        damping = mode.damping
+        result = judged("structure", -damping, 0.0, "1", text, subject=subject)
+        yield result if damping < 0.0 or damping >= CLOSE_TO_NONE else result._replace(verdict="close")
