@@ -8,30 +8,36 @@ from collections.abc import Iterator
 
 from tandemlift.analysis.linearization.linear_model import Mode, modes_of
 from tandemlift.analysis.linearization.linearize import linearize
-from tandemlift.analysis.linearization.loop_margins import NO_KINK, calm_mission
+from tandemlift.analysis.linearization.loop_margins import LIFT, NO_KINK, SETTLED, calm_mission
 from tandemlift.core.errors import CheckResult, judged
 from tandemlift.missions.mission import Mission
 from tandemlift.parts.mechanics.structure import kept_modes, mode_in_words
 
 SHAPE = re.compile(r"shape\.(?:coordinates|rates)\.n(\d+)")
-CLOSE_TO_NONE = 0.003  # damping ratio: a mode with less is close to growing
+BEFORE_TARE = 1.0 + LIFT + 0.5 * SETTLED  # s: the hover of `calm_mission` before its tare
+NARROW = 0.003  # damping ratio: a mode with less is close to growing
 
 
 def closed_structure(mission: Mission) -> dict[int, Mode]:
     """The modes of the hovering flight in which each mode of the structure has its largest part, by its number.
 
+    A pilot that tares ignores pushes before; so both hovers count, and of each mode that with the least damping.
+
     Raises:
         InputError: the mission cannot be flown to a hover, even with damped modes.
     """
     calm, at = calm_mission(mission, slow=1.0)
-    found = dict[int, tuple[float, Mode]]()
-    for mode in modes_of(linearize(calm, at, kink_tolerance=NO_KINK).connected()).modes:
-        for name, share in mode.states:
-            if (part := SHAPE.fullmatch(name)) and mode.frequency > 0.0:
-                i = int(part[1])
-                if i not in found or (mode.damping < 0.0, share) > (found[i][1].damping < 0.0, found[i][0]):
-                    found[i] = share, mode
-    return {i: mode for i, (_, mode) in sorted(found.items())}
+    worst = dict[int, Mode]()
+    for t in {at, min(at, BEFORE_TARE)}:
+        found = dict[int, tuple[bool, float, Mode]]()
+        for mode in modes_of(linearize(calm, t, kink_tolerance=NO_KINK).connected()).modes:
+            for name, share in mode.states:
+                if (part := SHAPE.fullmatch(name)) and mode.frequency > 0.0:
+                    one, i = (mode.damping < 0.0, share, mode), int(part[1])
+                    found[i] = max(found.get(i, one), one, key=lambda each: each[:2])
+        for i, (_, _, mode) in found.items():
+            worst[i] = min(worst.get(i, mode), mode, key=lambda each: each.damping)
+    return dict(sorted(worst.items()))
 
 
 def structure_in_loop_checks(mission: Mission) -> Iterator[CheckResult]:
@@ -48,4 +54,4 @@ def structure_in_loop_checks(mission: Mission) -> Iterator[CheckResult]:
         )
         damping = mode.damping
         result = judged("structure", -damping, 0.0, "1", text, subject=subject)
-        yield result if damping < 0.0 or damping >= CLOSE_TO_NONE else result._replace(verdict="close")
+        yield result if damping < 0.0 or damping >= NARROW else result._replace(verdict="close")
