@@ -21,7 +21,7 @@ import numpy as np
 
 from tandemlift.core.algebra import sqrt
 from tandemlift.core.caching import cached
-from tandemlift.core.errors import CheckResult, judged, refused
+from tandemlift.core.errors import CheckResult, InputError, judged, refused
 from tandemlift.core.law import choice, law
 from tandemlift.core.part import FlightCheck, Part
 from tandemlift.core.types import Number, PerQuadrotor
@@ -368,7 +368,14 @@ def shape_channels(k: Structure, shape: Deformation) -> ShapeChannels:
 
 def structure_refusals(vehicle: Vehicle, step: float) -> Iterator[CheckResult]:
     """Refusal of a structure of which no mode is slow enough for the step [s]."""
-    if is_elastic(vehicle) and not len(kept_modes(vehicle, step).frequency):
+    if not is_elastic(vehicle):
+        return
+    try:
+        modes = kept_modes(vehicle, step)
+    except InputError as error:
+        yield refused(str(error))
+        return
+    if not len(modes.frequency):
         lowest = float(modes_of(vehicle).frequency[0])
         yield refused(
             f"mission.step = {step:g}: must be at most {REACH / lowest:.2g} s for the lowest mode of the vehicle, "

@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tandemlift.core.caching import cached
+from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
@@ -177,8 +178,21 @@ def modes_of(vehicle: Vehicle, elements: int = ELEMENTS, slender: bool = False) 
         vehicle: with an elastic beam or a mount that gives.
         elements: of the beam, at least.
         slender: leave out the inertia of the rotation of the beam's sections in bending.
+
+    Raises:
+        InputError: masses and stiffnesses are too far apart to compute with.
     """
-    mesh = mesh_of(vehicle, elements, slender=slender)
+    try:
+        with np.errstate(over="raise", invalid="raise", divide="raise"):
+            return _solved(mesh_of(vehicle, elements, slender=slender))
+    except (ArithmeticError, np.linalg.LinAlgError) as error:
+        raise InputError(
+            "vehicle.payload, vehicle.quadrotors: masses, lengths and stiffnesses must not be so far apart; the modes "
+            "of the vehicle cannot be computed"
+        ) from error
+
+
+def _solved(mesh: Mesh) -> ElasticModes:
     K = np.sum([k for k, _ in mesh.members], axis=0)
     inverse = np.linalg.inv(np.linalg.cholesky(mesh.mass))
     squares, vectors = np.linalg.eigh(inverse @ K @ inverse.T)
