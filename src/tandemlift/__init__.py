@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from tandemlift.apps.export.logs import read_log
     from tandemlift.apps.live.notebook_page import page
     from tandemlift.apps.teaching.grading import grade
-    from tandemlift.codegen.known_flights import fly
     from tandemlift.codegen.mission_module import compile_mission
     from tandemlift.core.errors import FlightWarning, InputError
     from tandemlift.core.plugs import plug
@@ -41,6 +40,7 @@ if TYPE_CHECKING:
     from tandemlift.parts.mechanics.vehicle import Vehicle
     from tandemlift.pictures.figures.registry import plot
     from tandemlift.simulation.fly import fly_many
+    from tandemlift.simulation.known_flights import fly
     from tandemlift.simulation.pilot_api import Pilot
     from tandemlift.simulation.simulation import Simulation
 
@@ -60,7 +60,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "compile_mission": "codegen.mission_module",
     "excite": "analysis.identification.excitation_design",
     "feel": "analysis.studies.feel",
-    "fly": "codegen.known_flights",
+    "fly": "simulation.known_flights",
     "fly_many": "simulation.fly",
     "grade": "apps.teaching.grading",
     "identify": "analysis.identification.identify",

@@ -197,7 +197,7 @@ METRIC: Edits = {
             '        "speed_max_m_s": max(early.fastest, late.fastest),\n        "push_triggers_after_10s"',
         ),
     ],
-    "flight/metric_descriptions.py": [
+    "analysis/studies/metric_descriptions.py": [
         (
             '            "position_rmse_m": Metric(',
             '            "speed_max_m_s": Metric("m/s", "largest speed"),\n            "position_rmse_m": Metric(',

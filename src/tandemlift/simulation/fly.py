@@ -123,7 +123,7 @@ def _fly_compiled(
 
 
 def fly(mission: MissionLike, engine: str | None = None, *, progress: Progress | None = None) -> Flight:
-    """Fly a mission that is prepared anew; otherwise as `codegen.known_flights.fly`, which is `tl.fly`."""
+    """Fly a mission that is prepared anew; otherwise as `simulation.known_flights.fly`, which is `tl.fly`."""
     return fly_plan(plan_of(mission, engine), progress)[0]
 
 

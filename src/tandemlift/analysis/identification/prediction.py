@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tandemlift.analysis.identification.vehicle_unknowns import DrivenNumbers, Unknowns
 from tandemlift.analysis.identification.windows import FlightWindows, Places
 from tandemlift.analysis.logs.log import JOINTS, conjugate, quaternion_product
 from tandemlift.compiler.machine_code.series import Series
@@ -27,7 +28,6 @@ from tandemlift.engines.driven_vehicle import (
     driven_step,
     rotor_step,
 )
-from tandemlift.engines.vehicle_unknowns import DrivenNumbers, Unknowns
 from tandemlift.missions import Mission
 
 STARTS = 12  # of a window: position, velocity, a turn about body axes, rates

@@ -9,6 +9,7 @@ import functools
 from collections.abc import Sequence
 from typing import Any, get_args, get_origin
 
+from tandemlift.analysis.studies import corridor_score
 from tandemlift.apps.live.session import checks, frames, pacing
 from tandemlift.apps.live.session.challenge import SCORE_FILE
 from tandemlift.apps.live.session.checks import TouchRule, touch_refusal
@@ -25,7 +26,6 @@ from tandemlift.core.phases import DIVERGED, ENDING_OF, ENDINGS, EndingKind
 from tandemlift.core.refusals import REQUESTS, refusals_for, sentences_for
 from tandemlift.core.types import flat, zeroed
 from tandemlift.core.vector import ZERO, Quat
-from tandemlift.flight import corridor_score
 from tandemlift.flight.record import CAUSE_TEXT, ENDING_TEXT
 from tandemlift.missions import tables_of
 from tandemlift.missions.changes import Tables

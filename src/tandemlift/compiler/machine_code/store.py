@@ -36,7 +36,7 @@ PACKAGE = Path(__file__).resolve().parents[2]
 FOLDERS = ("core", "parts", "compiler", "engines", "simulation/preparation", "simulation/loop")
 FILES = ("simulation/pilot_api", "simulation/refusals")
 
-ROOMS = ("core", "parts", "compiler", "engines", "simulation", "missions", "flight", "codegen", "pictures/report")
+ROOMS = ("core", "parts", "compiler", "engines", "simulation", "missions", "flight", "pictures/report")
 MATHEMATICS = ("OPENBLAS", "OMP_", "MKL_", "BLIS_", "NPY_")  # beginnings of variables that may change its last bits
 MISSIONS = DATA / "missions"
 MARGIN = 2 * 10**7  # ns, by which the clock of files may be late

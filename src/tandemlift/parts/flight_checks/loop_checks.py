@@ -32,11 +32,11 @@ from numpy.typing import NDArray
 from tandemlift.core.errors import CheckResult, judged, warned
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.parts.controllers.interface import ControllerTable
-from tandemlift.parts.estimation.disturbance_observer import ObserverTable
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.flight_checks.controller_response import INPUTS, controller_response
 from tandemlift.parts.guidance.alternation import CROSSOVER, force_curvature
 from tandemlift.parts.guidance.compliance import ComplianceTable
+from tandemlift.parts.guidance.disturbance_observer import ObserverTable
 from tandemlift.parts.guidance.guidance import PilotTable
 from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable
 from tandemlift.parts.rotors.allocation import AllocationTable, hover_moments

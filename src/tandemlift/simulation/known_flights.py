@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from tandemlift.simulation.plan import FlightPlan
     from tandemlift.simulation.results import RawResult
 
-WITH_LAWS = re.compile(r"tandemlift\.(parts|missions|engines|simulation|compiler\.tracer)\b")
+WITH_LAWS = re.compile(r"tandemlift\.((parts|missions|engines|compiler\.tracer)\b|simulation\.(?!known_flights))")
 _CODES = dict[str, Code]()  # that fly in this process
 Numbers = NDArray[np.float64]
 STRETCH, FIRST_STRETCH = 0.1, 5_000  # as in `simulation.fly`: s of a stretch of flight, steps of the first one
