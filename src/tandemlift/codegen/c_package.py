@@ -16,8 +16,7 @@ from tandemlift.codegen.c_flight import FlightFile
 from tandemlift.codegen.c_pilot import PilotFile
 from tandemlift.codegen.number_facts import facts_of
 from tandemlift.codegen.prepare import PrepareFile
-from tandemlift.core.file_set import write_files
-from tandemlift.core.files import check_own
+from tandemlift.core.files import check_own, write_files
 from tandemlift.core.types import Array, leaves
 from tandemlift.missions import Mission, tables_of
 from tandemlift.simulation.caller_values import portable_mission

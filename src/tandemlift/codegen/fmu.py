@@ -18,7 +18,7 @@ from tandemlift.codegen.fmu_binaries import HOST, chosen_platforms, libraries
 from tandemlift.codegen.fmu_description import build_description, model_description, sources
 from tandemlift.codegen.fmu_sources import FmuPart, flight_part, pilot_part
 from tandemlift.core.errors import InputError
-from tandemlift.core.file_set import write_files
+from tandemlift.core.files import write_files
 from tandemlift.missions import Mission
 from tandemlift.simulation.caller_values import portable_mission
 

@@ -22,8 +22,7 @@ from tandemlift.compiler.machine_code import store
 from tandemlift.compiler.machine_code.code import Written
 from tandemlift.compiler.machine_code.machine import MACHINES, Machine, machine_named, object_code
 from tandemlift.core.errors import InputError
-from tandemlift.core.file_set import write_files
-from tandemlift.core.files import __version__
+from tandemlift.core.files import __version__, write_files
 from tandemlift.core.types import flat, leaves
 from tandemlift.flight.channels import channel_of
 from tandemlift.missions import Mission, MissionLike, mission_of, tables_of

@@ -31,7 +31,7 @@ from tandemlift.core.files import versions
 from tandemlift.core.findings import finding_from
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Progress, flat, leaves
-from tandemlift.flight.reading_stamps import reading_stamps
+from tandemlift.flight.channels import reading_stamps
 from tandemlift.flight.record import Flight
 
 if TYPE_CHECKING:

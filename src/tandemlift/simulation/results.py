@@ -19,8 +19,7 @@ from tandemlift.core.phases import FAILURES, IDLE, PHASE_NAMES
 from tandemlift.core.plugs import Plug, error_text, file_of, listed
 from tandemlift.core.types import Array, flat, leaves, unflat
 from tandemlift.core.vector import Absent, Vec3
-from tandemlift.flight.channels import DERIVED
-from tandemlift.flight.reading_stamps import reading_stamps
+from tandemlift.flight.channels import DERIVED, reading_stamps
 from tandemlift.flight.record import Ending, Flight
 from tandemlift.missions import tables_of
 from tandemlift.missions.recording import portable

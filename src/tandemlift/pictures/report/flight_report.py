@@ -15,8 +15,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from tandemlift.core.errors import InputError
-from tandemlift.core.file_set import write_together
-from tandemlift.core.files import FLIGHT_FILE, write_file
+from tandemlift.core.files import FLIGHT_FILE, write_file, write_together
 from tandemlift.core.types import Progress
 from tandemlift.flight.record import Flight, counted_until
 from tandemlift.pictures.figures.registry import captions, figures_for
