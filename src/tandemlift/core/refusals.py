@@ -120,9 +120,9 @@ def refusals_for(key: str) -> Refusals:
     return Refusals(*[refusal_of(request, NUMBER_OF[key], 0.0, 0.0) for request in REQUESTS])
 
 
-def sentences_for(request: Request) -> list[str]:
-    """The refusal of a request for each reason, by its number, with placeholders in braces."""
-    return ["", *[str(_refusal(request, reason)) for reason in REASONS]]
+def sentences() -> dict[str, list[str]]:
+    """The refusals of each request for each reason, by its number, with placeholders in braces."""
+    return {request: ["", *[str(_refusal(request, reason)) for reason in REASONS]] for request in REQUESTS}
 
 
 def refusal_of(request: Request, number: float, value: float, limit: float) -> PilotRefusal | None:

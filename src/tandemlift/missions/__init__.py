@@ -8,8 +8,9 @@ A function that needs a part of a mission takes that table, or `Mission.hover`: 
 
 from tandemlift.core.plugs import load_plugin
 from tandemlift.missions.acting import IdleKey, idle_keys, sentences
-from tandemlift.missions.changes import format_toml, merge, tables_of
-from tandemlift.missions.checking import changed, check
+from tandemlift.missions.changes import Tables, format_toml, merge, tables_of
+from tandemlift.missions.checking import Layer, changed, check
+from tandemlift.missions.facts import RESTLESS, calm_time
 from tandemlift.missions.loading import (
     DATA,
     MissionLike,
@@ -23,28 +24,36 @@ from tandemlift.missions.mission import (
     HoverFacts,
     InitialTable,
     Mission,
+    MissionTable,
     PersonTable,
     SensorsTable,
     VehicleTable,
+    check_double,
     check_keys,
+    with_precision,
 )
-from tandemlift.missions.mission import check_double as check_double
-from tandemlift.missions.mission import with_precision as with_precision
+from tandemlift.missions.refusals import problems_in
 
 __all__ = [
     "DATA",
+    "RESTLESS",
     "HoverFacts",
     "IdleKey",
     "InitialTable",
+    "Layer",
     "Mission",
     "MissionLike",
+    "MissionTable",
     "MissionTemplate",
     "PersonTable",
     "SensorsTable",
+    "Tables",
     "VehicleTable",
     "built_in",
+    "calm_time",
     "changed",
     "check",
+    "check_double",
     "check_keys",
     "format_toml",
     "idle_keys",
@@ -53,6 +62,8 @@ __all__ = [
     "merge",
     "mission_from_text",
     "mission_of",
+    "problems_in",
     "sentences",
     "tables_of",
+    "with_precision",
 ]

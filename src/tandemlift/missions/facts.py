@@ -19,6 +19,7 @@ from tandemlift.missions.mission import PARTS, Mission
 from tandemlift.parts.controllers.interface import tilt_limit_of
 from tandemlift.parts.guidance.compliance import push_filters
 from tandemlift.parts.guidance.start_guidance import phase_settings
+from tandemlift.parts.mechanics.push import SUPPORT
 from tandemlift.parts.rotors.allocation import mixer_of
 from tandemlift.parts.rotors.rotor_faults import known_faults
 from tandemlift.parts.sensors.sensors_table import steps_of
@@ -91,3 +92,20 @@ class Facts(dict[str, Any]):
                 parameters[part.name] = k
                 memory |= {part.name: m} if part.remembers else {}
         return parameters, memory
+
+
+RESTLESS = tuple(part.key for part in PARTS if part.begins or not part.calm)
+"""The tables of the parts with which a vehicle does not rest in hover, or not to the end."""
+
+
+def calm_time(mission: Mission) -> float:
+    """The default time [s] of a flight that is tared: the end of the first calm after the lift.
+
+    This is before the first push, fault, excitation or landing and before a person begins; else the mission's end.
+    """
+    phases, facts = mission.phases, Facts(mission)
+    ends = [push.time - SUPPORT * push.sigma for push in mission.pushes] + [fault.time for fault in mission.faults]
+    ends += [] if phases.land_start is None else [phases.land_start]
+    ends += [facts.ask(part, part.begins) for part in PARTS if part.begins and facts.has(part)]
+    hovers = phases.lift_start + phases.lift_duration
+    return max(min([facts["end"], *(calm for calm in ends if calm > hovers)]), 0.0)

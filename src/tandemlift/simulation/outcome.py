@@ -7,15 +7,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from functools import reduce
+from typing import Any, NamedTuple
 
 from tandemlift.core.algebra import atan2, chosen, maximum, sqrt, where
 from tandemlift.core.law import law
-from tandemlift.core.phases import ENDING_OF, FAR, LEFT_FENCE, STRUCK, TURNED_OVER
+from tandemlift.core.phases import DIVERGED, ENDING_OF, ENDINGS, FAR, LEFT_FENCE, STRUCK, TURNED_OVER, EndingKind
 from tandemlift.core.trajectories import PhasesTable
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Absent, Vec3, dot
-from tandemlift.flight.record import Ending
+from tandemlift.flight.record import CAUSE_TEXT, ENDING_TEXT, Ending
 from tandemlift.parts.guidance.compliance import ComplianceTable
 from tandemlift.parts.guidance.fault_detection import distance_outside
 from tandemlift.parts.guidance.requests import RequestTable
@@ -109,6 +110,35 @@ def ending_of(p: FlightPlan, s: FlightState, step: int, interruption: Ending | N
     kind = ENDING_OF[found.number]
     cause = cause_of(p, found.number).format(value=f"{found.value:.3g}")
     return Ending(kind.quantity, found.time, found.value, limit_of(p, found.number), kind.outcome, cause)
+
+
+ENDING_PARTS = (("limits",), *[("flight_state", name) for name in ("crash", "ended", "state", "impulse")])
+
+
+def ending_parts(p: FlightPlan) -> tuple[Any, ...]:
+    """The values of a flight that its ending follows from; `ENDING_PARTS` are their paths."""
+    return tuple(reduce(getattr, path, p.model) for path in ENDING_PARTS)
+
+
+def ending_from(limits: Any, crash: Any, ended: Any, state: Any, impulse: Any, t: Any) -> EndingNumbers:
+    """The ending of a flight at time t [s], from its `ENDING_PARTS`."""
+    return ending_numbers(limits, crash, EndingMoment(ended, t, state, impulse))
+
+
+def ending_texts(p: FlightPlan) -> dict[str, Any]:
+    """Outcome and text of each ending by number; the texts of non-finite values by their place in the state.
+
+    The places of a text's numbers are in braces; {rounded}: of three digits.
+    """
+    known = {str(int(k.number)): _ending_text(p, k, k.quantity, limit_of(p, k.number)) for k in ENDINGS}
+    return {"by_number": known, "not_finite": [_ending_text(p, ENDING_OF[DIVERGED], part) for part in State._fields]}
+
+
+def _ending_text(p: FlightPlan, kind: EndingKind, quantity: str, limit: str = NOT_FINITE) -> dict[str, str]:
+    cause = cause_of(p, kind.number).format(value="{rounded}")
+    named = {"quantity": quantity, "limit": limit, "time": "{time}", "value": "{value}", "cause": cause}
+    text = (CAUSE_TEXT if cause else ENDING_TEXT).replace(":.6g", "")
+    return {"outcome": kind.outcome, "text": text.format(outcome=kind.outcome, **named)}
 
 
 def place_of(p: FlightPlan, s: FlightState) -> Vec3:

@@ -33,7 +33,6 @@ from tandemlift.simulation.results import RawResult, flight_of, take_metrics
 from tandemlift.simulation.stepping import Stepper, body_of
 
 FLYING = "flying"  # the outcome of a flight that continues
-MISSION, HAND, FLIGHT = MISSION_FILE, HAND_FILE, FLIGHT_FILE
 EMPTY_FLIGHT = "nothing was flown yet: there is nothing to save"
 
 
@@ -64,9 +63,9 @@ class FlightSnapshot:
         """Write mission and hand into a folder."""
         steps = np.array([k for k, _ in self.hand], dtype=np.int64)
         hands = np.reshape([hand for _, hand in self.hand], (len(steps), WIDTH))
-        write_recording(folder / HAND, Recording(steps, hands, self.engine))
-        comment = f"# Flies again, in the engine {self.engine}: tandemlift run {MISSION}\n\n"
-        write_file(folder / MISSION, comment + self._toml(folder.name))
+        write_recording(folder / HAND_FILE, Recording(steps, hands, self.engine))
+        comment = f"# Flies again, in the engine {self.engine}: tandemlift run {MISSION_FILE}\n\n"
+        write_file(folder / MISSION_FILE, comment + self._toml(folder.name))
 
     def alone(self) -> Flight:
         """The flight by itself, with a mission of the same length that has neither hand nor changes."""
@@ -76,7 +75,7 @@ class FlightSnapshot:
     def _toml(self, name: str) -> str:
         tables, step = tables_of(self.start), self.start.mission.step
         tables["mission"] |= {"name": name, "duration": self.flown.step * step}
-        tables["person"]["recording"] = HAND
+        tables["person"]["recording"] = HAND_FILE
         tables["changes"] = [c for c in self.changes if round(c["time"] / step) <= self.flown.step]
         return format_toml(tables)
 
@@ -84,12 +83,12 @@ class FlightSnapshot:
 def save_flight(folder: Path, flown: RawResult, engine: str) -> Flight:
     """Write the flight that was flown into the folder of its recorded mission."""
     with without_flight_warnings():
-        p = FlightPlan(end := load_mission(folder / MISSION))
+        p = FlightPlan(end := load_mission(folder / MISSION_FILE))
         for change in end.changes:
             end = changed(end, change.key, change.value)
         flown = replace(flown, now=FlightPlan(end))  # a plan stays in its process
     flight = flight_of(p, flown, engine)
-    flight.save(folder / FLIGHT)
+    flight.save(folder / FLIGHT_FILE)
     return flight
 
 

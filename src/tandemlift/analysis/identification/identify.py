@@ -37,8 +37,8 @@ from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Array, Progress, flat
 from tandemlift.engines.driven_vehicle import whole_vehicle
+from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, MissionLike, VehicleTable, mission_of
-from tandemlift.simulation.fly import Flight
 
 HELD_BACK = 0.15  # of the windows
 SHOWN = 100  # blocks of the example
