@@ -8,10 +8,10 @@ import tandemlift as tl
 from tandemlift.apps.cli.main import cli
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.apps.live.session.saving import save_in_process
-from tandemlift.core.vector import Vec3
-from tandemlift.parts.person.virtual_hand import HAND_RELEASED
 from tandemlift.core.files import FLIGHT_FILE
+from tandemlift.core.vector import Vec3
 from tandemlift.missions.recording import HAND_FILE, MISSION_FILE
+from tandemlift.parts.person.virtual_hand import HAND_RELEASED
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 GUIDED = {

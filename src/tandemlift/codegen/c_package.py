@@ -21,10 +21,10 @@ from tandemlift.core.types import Array, leaves
 from tandemlift.missions import Mission, tables_of
 from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.fly import fly
+from tandemlift.simulation.graphs import trace_assembly, with_values
 from tandemlift.simulation.pilot_api import INPUT, Pilot, pilot_at_start
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import FlightMemory
-from tandemlift.simulation.preparation.traced_assembly import trace_assembly, with_values
 
 VECTORS = 40  # stored samples of a pilot
 ROWS = 12  # stored samples of a flight

@@ -16,10 +16,9 @@ from tandemlift.codegen.prepare import PrepareFile, prepared_numbers
 from tandemlift.compiler.tracer import symbols
 from tandemlift.core.types import flat, leaves
 from tandemlift.missions import Mission
+from tandemlift.simulation.graphs import TracedAssembly, VehicleStep, is_of_vehicle, trace_assembly, with_values
 from tandemlift.simulation.pilot_api import INPUT, pilot_at_start
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.preparation.traced_assembly import TracedAssembly, trace_assembly, with_values
-from tandemlift.simulation.preparation.vehicle_step import VehicleStep, is_of_vehicle
 from tandemlift.simulation.results import channel_columns
 
 PARTS = {

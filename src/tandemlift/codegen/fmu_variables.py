@@ -16,7 +16,7 @@ from tandemlift.codegen.number_facts import CALLER, FIELDS, PUSH, REQUESTS, STAT
 from tandemlift.flight.channels import Channel, channel_of
 from tandemlift.flight.data_frames import column_names
 from tandemlift.simulation.caller_values import held_inputs
-from tandemlift.simulation.preparation.traced_assembly import TracedAssembly
+from tandemlift.simulation.graphs import TracedAssembly
 from tandemlift.simulation.results import channel_columns
 
 ENTRY = re.compile(r"(.+?)((?:\.\d+)+)")  # a key of a number in a list

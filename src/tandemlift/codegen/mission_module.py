@@ -27,11 +27,10 @@ from tandemlift.core.types import flat, leaves
 from tandemlift.flight.channels import channel_of
 from tandemlift.missions import Mission, MissionLike, mission_of, tables_of
 from tandemlift.simulation.caller_values import portable_mission
+from tandemlift.simulation.graphs import TracedAssembly, assemble, trace_assembly
 from tandemlift.simulation.parameter_changes import hand_place
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.preparation.assemble import assemble
 from tandemlift.simulation.preparation.memory import POINTERS, WORDS
-from tandemlift.simulation.preparation.traced_assembly import TracedAssembly, trace_assembly
 from tandemlift.simulation.results import channel_columns
 
 FUNCTIONS = ("prepare", "fly", "ramp")

@@ -14,7 +14,8 @@ import os
 import socket
 import time
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 from functools import partial
 from typing import Any, Protocol
 from xml.etree import ElementTree
@@ -25,7 +26,7 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array, flat
 from tandemlift.core.vector import Absent, Quat
 from tandemlift.engines.compiled import start_state
-from tandemlift.engines.gazebo_server import GazeboServer, free_port
+from tandemlift.engines.gazebo_server import GazeboServer, free_port, gazebo_window
 from tandemlift.engines.gazebo_wire import PluginAnswer, Wire
 from tandemlift.engines.models import sdf
 from tandemlift.engines.models.scene import Scene
@@ -253,3 +254,39 @@ def _check_world(answer: PluginAnswer, scene: Scene, vehicle: Vehicle) -> None:
                 f"engine 'gazebo': the world in Gazebo has a {what} of {given:g} {unit}, the mission {wanted:g} "
                 f"{unit}; export the mission again and start Gazebo with it"
             )
+
+
+# ---- A server for one flight of this process
+
+
+@contextmanager
+def _joined(port: int, check: Callable[[], None], *, real_time: bool) -> Iterator[None]:
+    """A context in which engine `gazebo` joins the server at a port."""
+    before = {name: os.environ.get(name) for name in (PORT, REAL_TIME)}
+    CHECKS[port] = check
+    os.environ |= {PORT: str(port), REAL_TIME: str(int(real_time))}
+    try:
+        yield
+    finally:
+        del CHECKS[port]
+        for name, value in before.items():
+            os.environ.pop(name)
+            if value is not None:
+                os.environ[name] = value
+
+
+@contextmanager
+def running_gazebo(scene: Scene, *, window: bool, real_time: bool) -> Iterator[str]:
+    """Gazebo with a mission's world while the context is open, for one flight in the engine `gazebo`; its master.
+
+    Raises:
+        InputError: there is no Gazebo, or no display for the window.
+    """
+    port = free_port(socket.SOCK_DGRAM)
+    with ExitStack() as closing:
+        server = GazeboServer(world_from(scene, port))
+        closing.callback(server.close)
+        if window:
+            closing.enter_context(gazebo_window(server.master))
+        closing.enter_context(_joined(port, server.check, real_time=real_time))
+        yield server.master

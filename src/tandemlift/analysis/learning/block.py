@@ -9,7 +9,6 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tandemlift.analysis.learning.block_memory import BlockOfFlights, EndedFlights
 from tandemlift.analysis.learning.block_readings import BlockReadings
 from tandemlift.analysis.learning.lanes import (
     Keys,
@@ -24,7 +23,7 @@ from tandemlift.core.types import Array, flat, leaves
 from tandemlift.missions import MissionLike, mission_of, with_precision
 from tandemlift.simulation.caller_values import checked_seed, count_of, held_inputs
 from tandemlift.simulation.preparation import leaf_offset
-from tandemlift.simulation.preparation.memory import NEVER
+from tandemlift.simulation.preparation.block_memory import NEVER, BlockOfFlights, EndedFlights
 from tandemlift.simulation.results import SampleChannels
 
 Actions = Literal["push", "thrusts", "velocity"]

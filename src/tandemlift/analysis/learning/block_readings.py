@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.analysis.learning.block_memory import BlockOfFlights, EndedFlights
 from tandemlift.analysis.learning.lanes import Lanes, lane_numbers
 from tandemlift.core.findings import Finding
 from tandemlift.core.types import Array, leaves, unflat
@@ -15,6 +14,7 @@ from tandemlift.missions import Mission
 from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import LeafSpan, leaf_offset
+from tandemlift.simulation.preparation.block_memory import BlockOfFlights, EndedFlights
 from tandemlift.simulation.results import RawResult, SampleChannels, metrics_of
 
 

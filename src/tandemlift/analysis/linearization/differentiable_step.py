@@ -14,10 +14,7 @@ from tandemlift.analysis.linearization.operating_point import OperatingPoint, fl
 from tandemlift.analysis.linearization.period import delayed_numbers, differentiate, values_under_way
 from tandemlift.analysis.linearization.step_derivative import REFINED
 from tandemlift.analysis.linearization.step_graph import StepGraph, leaf_names
-from tandemlift.compiler.machine_code.differentiated import inlined
-from tandemlift.compiler.machine_code.iterated import IteratedStep, StepForm
-from tandemlift.compiler.machine_code.jax_step import JaxStep
-from tandemlift.compiler.machine_code.torch_step import TorchStep
+from tandemlift.compiler.derivatives import IteratedStep, JaxStep, StepForm, TorchStep, inlined
 from tandemlift.compiler.tracer import Function, Place, Symbol, elementary
 from tandemlift.core.algebra import where
 from tandemlift.core.errors import InputError, shown, unknown
@@ -26,9 +23,9 @@ from tandemlift.missions import MissionLike, mission_of
 from tandemlift.parts.mechanics.push import push_at
 from tandemlift.parts.mechanics.wind import gust_velocity
 from tandemlift.simulation.caller_values import count_of, held_inputs
+from tandemlift.simulation.graphs import write_limits, write_solver
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import GAUSSIAN, GUST, leaf_offset
-from tandemlift.simulation.preparation.loops import write_limits, write_solver
 
 ACTIONS = ("push", "thrusts", "velocity")
 MOTION = {"position": 3, "velocity": 3, "attitude": 4, "rates": 3}

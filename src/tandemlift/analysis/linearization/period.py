@@ -15,9 +15,9 @@ from tandemlift.analysis.linearization.operating_point import OperatingPoint
 from tandemlift.analysis.linearization.step_derivative import StepDerivative, StepSeeds
 from tandemlift.analysis.linearization.step_graph import StateChoice, StepGraph
 from tandemlift.core.types import Array, leaves
+from tandemlift.simulation.graphs import COMMAND_LINE
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import delayed_spans
-from tandemlift.simulation.preparation.step_end import COMMAND_LINE
 
 
 class DelayedNumber(NamedTuple):

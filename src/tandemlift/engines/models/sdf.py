@@ -18,7 +18,6 @@ from numpy.typing import ArrayLike
 
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.core.vector import vec3
-from tandemlift.engines.models.camera import CAMERAS
 from tandemlift.engines.models.links import Link, links_of
 from tandemlift.engines.models.scene import Scene, floor_from
 from tandemlift.engines.models.sdf_collisions import (
@@ -32,6 +31,7 @@ from tandemlift.engines.models.sdf_collisions import (
 )
 from tandemlift.engines.models.sdf_elements import Element, add, fill, geometry, numbers, pose, rgba
 from tandemlift.engines.models.visuals import (
+    CAMERAS,
     GLASS,
     LEVEL,
     SUN,

@@ -7,25 +7,20 @@ convex body it is that of its corners and edges, or of a face above one of the w
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from itertools import product
-from typing import Any, NamedTuple, TypeVar
-
-import numpy as np
+from typing import NamedTuple, TypeVar
 
 from tandemlift.core.algebra import least, minimum, sqrt
 from tandemlift.core.law import choice, elementwise, law
-from tandemlift.core.types import Array, Condition, Number, NumberSet, PerQuadrotor, PerRotor
-from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, apply, dot, is_set, vec3
-from tandemlift.parts.contact.beam_axis import BeamAxis, beam_axis, beam_point, point_by_edge, point_by_top
+from tandemlift.core.types import Condition, Number, NumberSet, PerQuadrotor, PerRotor
+from tandemlift.core.vector import Absent, Vec3, apply, dot, is_set
+from tandemlift.parts.contact.beam_axis import beam_axis, beam_point, point_by_edge, point_by_top
 from tandemlift.parts.contact.polyhedron import NearPolyhedron, Polyhedron, spots_by_walls
 from tandemlift.parts.contact.spheres import NearRotors, RotorSpheres
-from tandemlift.parts.contact.wall_geometry import Wall, edges_of, offset, offset_from_top, wall
+from tandemlift.parts.contact.wall_geometry import Wall, offset, offset_from_top
 from tandemlift.parts.contact.walls import Beam, NearBeam, NearWalls, Walls
 from tandemlift.parts.mechanics.joint_loads import PartsLayout, translated
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.mechanics.vehicle import Vehicle
 
 FAR = 1000.0  # m
 STALE = 0.05  # m, by which the vehicle may move before the nearest walls are found anew
@@ -157,61 +152,6 @@ def may_touch_wall(w: Walls, c: Clearance, s: State, rate: State, dt: Number) ->
     """
     fast, faster = speed_bound(w, s), speed_bound(w, rate)
     return least_clearance(c) < 2.0 * dt * (fast + faster * dt)
-
-
-class WallDistances(NamedTuple):
-    """Least distance from walls (T) [m]: of the guards, and of the payload; none without a shape.
-
-    Of a box, a mesh or bodies it is that of corners and edges.
-    """
-
-    guards: Array
-    beam: Array | None
-
-
-def wall_distances(
-    vehicle: Vehicle, walls: Iterable[Mapping[str, Any]], position: Array, attitude: Array
-) -> WallDistances:
-    """Distance of guards and payload from the nearest wall in many states at once; below zero where they are in it.
-
-    It tries every wall in every state, where `clearance` remembers the nearest.
-
-    Args:
-        vehicle: which flew.
-        walls: as of a flight: `start`, `end` and `top`.
-        position: of the centre of mass (T, 3) [m, world axes].
-        attitude: unit quaternions (T, 4).
-    """
-    s = State(Vec3(*position.T), ZERO, Quat(*attitude.T), ZERO)
-    upright, R = [wall(w["start"], w["end"], w["top"]) for w in walls], rotation_from_quaternion(s.attitude)
-    guards, beam = (np.full(len(position), np.inf) for _ in range(2))
-    for quadrotor, arm in zip(vehicle.quadrotors, vehicle.lever_arms, strict=True):
-        place = s.position + apply(R, vec3(arm))
-        for one in upright:
-            guards = np.minimum(guards, sphere_distance(offset(one, place), quadrotor.guard_radius))
-    axes, radius = _payload_axes(vehicle, s), vehicle.payload.radius or 0.0
-    if not axes:
-        return WallDistances(guards, None)
-    for one, (axis, half) in product(upright, axes):
-        ways = [offset(one, beam_point(axis, end)) for end in (-half, half)]
-        ways += [offset(edge, beam_point(axis, point_by_edge(axis, half, edge))) for edge in edges_of(one)]
-        ways.append(offset_from_top(one, beam_point(axis, point_by_top(axis, half, one))))
-        for way in ways:
-            beam = np.minimum(beam, sphere_distance(way, radius))
-    return WallDistances(guards, beam)
-
-
-def _payload_axes(vehicle: Vehicle, s: State) -> list[tuple[BeamAxis, float]]:
-    """The axis of a beam, or the edges of a body, each with half its length [m]; none without a shape."""
-    payload, R = vehicle.payload, rotation_from_quaternion(s.attitude)
-    if payload.length and payload.radius:
-        return [(beam_axis(vec3(vehicle.origin), s), 0.5 * payload.length)]
-    found = []
-    for a, b in (ends for hull in payload.hulls for ends in hull.corners[hull.edges]):
-        half = 0.5 * float(np.linalg.norm(b - a))
-        center = s.position + apply(R, vec3(vehicle.origin + 0.5 * (a + b)))
-        found.append((BeamAxis(center, s.velocity, apply(R, vec3(0.5 * (b - a) / half)), s.rates), half))
-    return found
 
 
 C = TypeVar("C")

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from typing import Annotated, Any, Literal, NamedTuple
+from collections.abc import Iterator
+from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 from pydantic import Field
@@ -82,15 +82,6 @@ def floor_under(vehicle: Vehicle, g: GroundTable, mass_scale: float, step: float
     at_zero = floor(vehicle, mass, step, friction=g.friction, sinkage=g.sinkage, hull=hull(vehicle, mass, step))
     height = start - standing_height(at_zero, mass * GRAVITY) if g.height is None else g.height
     return at_zero._replace(height=height)
-
-
-def floor_height_of(vehicle: Vehicle, mission: Mapping[str, Any]) -> float | None:
-    """Height z of the floor [m] by the tables of a resolved mission; None where there is none."""
-    ground = GroundTable.model_validate(mission.get("ground", {}))
-    if ground.model == "none" or ground.height is not None:
-        return ground.height if ground.model != "none" else None
-    scale, start = mission.get("plant", {}).get("mass_scale", 1.0), mission["initial"]["position"][2]
-    return float(floor_under(vehicle, ground, scale, mission["mission"]["step"], start).height)
 
 
 @cached

@@ -31,6 +31,7 @@ from tandemlift.parts.controllers.interface import (
     Measured,
     NoMemory,
     control,
+    tilt_limit_of,
 )
 from tandemlift.parts.controllers.registry import CONTROLLERS, Controller, error_text, file_of, register
 from tandemlift.parts.controllers.user_controller import controller, load_controller
@@ -99,6 +100,7 @@ __all__ = [
     "rotation_from_euler",
     "smc",
     "super_twisting",
+    "tilt_limit_of",
     "total_thrust",
     "tracked_attitude",
     "wanted_force",

@@ -6,7 +6,7 @@ import numpy as np
 
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.parts.contact.clearance import WallDistances, wall_distances
+from tandemlift.parts.contact.surroundings import WallDistances, wall_distances
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.drawing.vehicle import body_to_world
 

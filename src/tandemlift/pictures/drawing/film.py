@@ -17,8 +17,8 @@ from PIL import Image, ImageDraw, ImageFont
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import atomic_write
 from tandemlift.core.types import Array, Progress
-from tandemlift.engines.models.camera import ANGLE, CAMERAS, Camera
-from tandemlift.engines.models.camera import camera_of as camera_of
+from tandemlift.engines.models.visuals import ANGLE, CAMERAS, Camera
+from tandemlift.engines.models.visuals import camera_of as camera_of
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.ground import View
 from tandemlift.pictures.drawing.second_studio import drawn_by_two

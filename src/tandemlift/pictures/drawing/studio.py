@@ -15,9 +15,9 @@ from PIL import Image
 
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.types import Array
-from tandemlift.engines.models.camera import NEAR
 from tandemlift.engines.models.visuals import (
     GLASS,
+    NEAR,
     PUSH_COLOR,
     SUN,
     WALL,

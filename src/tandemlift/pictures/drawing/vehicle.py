@@ -9,7 +9,7 @@ import numpy as np
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.core.vector import Quat
 from tandemlift.flight.record import Flight
-from tandemlift.parts.contact.standing import floor_height_of
+from tandemlift.parts.contact.surroundings import floor_height_of
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle, mixer
 

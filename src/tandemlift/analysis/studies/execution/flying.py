@@ -12,10 +12,9 @@ from tandemlift.analysis.studies.execution.columns import Columns, Result, colum
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import INTERRUPTED
 from tandemlift.core.types import Progress
-from tandemlift.engines.registry import engine_named
+from tandemlift.engines.registry import EngineLost, engine_named
 from tandemlift.missions import Mission, MissionTemplate
 from tandemlift.simulation.fly import fly, fly_many, refusal_of
-from tandemlift.simulation.stepping import EngineLost
 
 Keep = Literal["flights", "metrics"]
 

@@ -11,8 +11,19 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.simulation.preparation import FlightMemory, FlightStart, LeafSpan, LoopCode, TimeGrid
-from tandemlift.simulation.preparation.memory import AT, NEVER, WORDS, Numbers, Words, aligned
+from tandemlift.simulation.loop.sources import LeafSpan
+from tandemlift.simulation.preparation.compiled_flight import LoopCode
+from tandemlift.simulation.preparation.memory import (
+    AT,
+    NEVER,
+    WORDS,
+    FlightMemory,
+    FlightStart,
+    Numbers,
+    TimeGrid,
+    Words,
+    aligned,
+)
 
 WORTH = 2e-4  # s of flight code in a call, from which on threads share it
 
