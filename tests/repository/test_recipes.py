@@ -31,7 +31,7 @@ KEY_HAS_ITS_EFFECT = """
 import numpy as np
 import tandemlift as tl
 from tandemlift.missions.reference import explained
-from tandemlift.missions.json_schema import mission_schema
+from tandemlift.missions.reference import mission_schema
 from tandemlift.missions.reference import template_text
 
 name, meaning = "compliance.max_force", "largest push that moves the reference"

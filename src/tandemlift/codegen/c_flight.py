@@ -22,7 +22,7 @@ from tandemlift.core.vector import ZERO
 from tandemlift.simulation import graphs
 from tandemlift.simulation.graphs import COMMAND_LINE, ROWS, Symbols, TracedStep, draw_count, templates_from
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.preparation.memory import COUNTS
+from tandemlift.simulation.preparation import COUNTS
 
 STEP = """/* One step of a flight from time t [s] by dt [s]: its state after it, and the sample at its start
  * (tandemlift.simulation.preparation.traced_step). */

@@ -22,12 +22,10 @@ from tandemlift.engines.gazebo import NONE, STEPPING, GazeboBody, world_from
 from tandemlift.engines.gazebo_server import GazeboServer
 from tandemlift.engines.gazebo_wire import PluginAnswer
 from tandemlift.engines.models.scene import Scene
-from tandemlift.engines.rospy import joined, message_type, node, ros_environment
+from tandemlift.engines.rospy import PLACES, ROOT, joined, message_type, node, ros_environment
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 Stamp = tuple[int, int]  # s, ns
-ROOT = "/tandemlift/gazebo"
-PLACES = (ROOT, *(f"{ROOT}_{k}" for k in range(2, 100)))  # of several servers of this process
 MOVED = "sensor_msgs/MultiDOFJointState"
 ENDING = 5.0  # s, in which a server may end by itself
 SILENCE = 0.05  # s, after which a command is repeated; a waiting world publishes its state every 0.1 s

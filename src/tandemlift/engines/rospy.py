@@ -32,6 +32,8 @@ from types import ModuleType
 from tandemlift.core.errors import InputError
 from tandemlift.engines.gazebo_server import export_lines, free_port, root, shell_command
 
+ROOT = "/tandemlift/gazebo"  # of the topics of Gazebo's plugin
+PLACES = (ROOT, *(f"{ROOT}_{k}" for k in range(2, 100)))  # of several servers of this process
 FOLDERS = ("/usr/lib/python3/dist-packages", "/opt/ros/noetic/lib/python3/dist-packages")  # Debian, Ubuntu 20.04
 JOIN = "TANDEMLIFT_GAZEBO_ROS"
 URI, IP, HOST = "ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME"

@@ -13,6 +13,7 @@ the IMU holds the last one of joints that have their own clock.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Container, Mapping
 from typing import Any, NamedTuple
@@ -284,6 +285,62 @@ def channel_of(name: str) -> Channel:
 def stamp_of(name: str) -> str:
     """The channel with the stamps of the readings in a channel `measured_…`."""
     return next((stamp for stamp, names in STAMP.items() if name in names), f"{name.removeprefix('measured_')}_stamp")
+
+
+# ---- Columns
+
+NUMBERED = ("rotor", "quadrotor")  # dimensions whose labels are bare numbers
+
+
+class Dimension(NamedTuple):
+    """A dimension of a channel's columns and its labels: axes, angles, or numbers from 1."""
+
+    name: str
+    labels: tuple[Any, ...]
+
+
+AXES = Dimension("axis", ("x", "y", "z"))
+ANGLES = Dimension("angle", ("roll", "pitch", "yaw"))
+QUATERNION = Dimension("quaternion", ("w", "x", "y", "z"))
+
+
+def dimensions(channel: Channel, count: int) -> tuple[Dimension, ...]:
+    """The dimensions of a channel's columns, the last varying fastest.
+
+    Args:
+        channel: its description.
+        count: its number of columns.
+    """
+    if not channel.per:
+        return _components(channel.frame, count)
+    if channel.width == 1:
+        return (Dimension(channel.per, tuple(range(1, count + 1))),)
+    each = Dimension(channel.per, tuple(range(1, count // channel.width + 1)))
+    return each, *_components(channel.frame, channel.width)
+
+
+def _components(frame: str, width: int) -> tuple[Dimension, ...]:
+    """The dimension of the numbers of a vector, of angles or of a quaternion; by default numbers from 1."""
+    if frame == "body to world" and width == 4:
+        return (QUATERNION,)
+    if width == 3 and frame:
+        return (ANGLES if frame == "zxy" else AXES,)
+    return (Dimension("component", tuple(range(1, width + 1))),)
+
+
+def column_names(name: str, channel: Channel, shape: tuple[int, ...]) -> list[str]:
+    """The name of each number of a channel's sample, whose shape is () for a single number."""
+    if not shape:
+        return [name]
+    parts = itertools.product(*[[_part(d.name, label) for label in d.labels] for d in dimensions(channel, shape[0])])
+    return ["_".join((name, *part)) for part in parts]
+
+
+def _part(dimension: str, label: object) -> str:
+    return f"{dimension}_{label}" if dimension in NUMBERED else str(label)
+
+
+# ---- Stamps
 
 
 def reading_stamps(mission: Mapping[str, Any], time: Array, channels: Container[str]) -> dict[str, Array]:

@@ -8,17 +8,31 @@ A function that needs a part of a mission takes that table, or `Mission.hover`: 
 
 from tandemlift.core.plugs import load_plugin
 from tandemlift.missions.acting import IdleKey, idle_keys, sentences
-from tandemlift.missions.changes import Tables, format_toml, merge, tables_of
+from tandemlift.missions.changes import (
+    MISSING,
+    Place,
+    Tables,
+    changed_tables,
+    format_toml,
+    merge,
+    place_of,
+    places_in,
+    tables_of,
+    value_at,
+)
 from tandemlift.missions.checking import Layer, changed, check
 from tandemlift.missions.facts import RESTLESS, calm_time
 from tandemlift.missions.loading import (
     DATA,
+    MAX_FILE,
     MissionLike,
     MissionTemplate,
     built_in,
     load_mission,
     mission_from_text,
     mission_of,
+    placed,
+    read_tables,
 )
 from tandemlift.missions.mission import (
     HoverFacts,
@@ -36,6 +50,8 @@ from tandemlift.missions.refusals import problems_in
 
 __all__ = [
     "DATA",
+    "MAX_FILE",
+    "MISSING",
     "RESTLESS",
     "HoverFacts",
     "IdleKey",
@@ -46,12 +62,14 @@ __all__ = [
     "MissionTable",
     "MissionTemplate",
     "PersonTable",
+    "Place",
     "SensorsTable",
     "Tables",
     "VehicleTable",
     "built_in",
     "calm_time",
     "changed",
+    "changed_tables",
     "check",
     "check_double",
     "check_keys",
@@ -62,8 +80,13 @@ __all__ = [
     "merge",
     "mission_from_text",
     "mission_of",
+    "place_of",
+    "placed",
+    "places_in",
     "problems_in",
+    "read_tables",
     "sentences",
     "tables_of",
+    "value_at",
     "with_precision",
 ]

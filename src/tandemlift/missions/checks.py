@@ -14,7 +14,7 @@ from tandemlift.core.errors import CLOSE, FAILS, OK, REFUSED, SETTINGS, CheckRes
 from tandemlift.core.phases import HARD
 from tandemlift.missions import outcomes
 from tandemlift.missions.facts import Facts
-from tandemlift.missions.flight_checks import flight_checks
+from tandemlift.missions.flight_checks import FlightCheck, flight_checks
 from tandemlift.missions.mission import PARTS, Mission, MissionTable
 from tandemlift.missions.recording import read_recording
 from tandemlift.parts.contact import standing
@@ -33,6 +33,8 @@ from tandemlift.parts.rotors.rotor_faults import fault_checks, fault_warnings
 from tandemlift.parts.rotors.rotors import ActuatorsTable
 from tandemlift.parts.sensors import sensor_checks as sensors
 from tandemlift.parts.sensors.sensors_table import SensorsTable
+
+__all__ = ["FlightCheck", "check_lines", "flight_checks", "mission_checks", "refusals"]
 
 MAX_STEPS = 1_000_000_000
 MAX_LOG = 4_000_000_000  # bytes

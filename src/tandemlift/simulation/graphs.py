@@ -7,6 +7,10 @@ limited together. The laws of external inputs make what a step is given.
 What compiles or differentiates a flight imports this module, and nothing further in `preparation` and `loop`.
 """
 
+from tandemlift.parts.mechanics.push import PointPush, PushSamples, push_at, push_moment
+from tandemlift.parts.mechanics.wind import gust_velocity
+from tandemlift.parts.rotors.normal_equations import GAMMA
+from tandemlift.parts.rotors.rotor_lag import by_direction, lag
 from tandemlift.simulation.loop.external_inputs import (
     ROWS,
     draw_count,
@@ -20,7 +24,7 @@ from tandemlift.simulation.loop.external_inputs import (
 )
 from tandemlift.simulation.preparation.assemble import AssembledFlight, assemble
 from tandemlift.simulation.preparation.limit_solver import LimitProblem, TracedSolver
-from tandemlift.simulation.preparation.loops import LoopWriter, write_limits, write_solver
+from tandemlift.simulation.preparation.loops import write_limits, write_solver
 from tandemlift.simulation.preparation.pilot_sampling import PilotDataState, PilotSampler
 from tandemlift.simulation.preparation.precompute import ScratchValues
 from tandemlift.simulation.preparation.step_end import COMMAND_LINE
@@ -31,12 +35,14 @@ from tandemlift.simulation.preparation.vehicle_step import VehicleStep, is_of_ve
 
 __all__ = [
     "COMMAND_LINE",
+    "GAMMA",
     "ROWS",
     "AssembledFlight",
     "LimitProblem",
-    "LoopWriter",
     "PilotDataState",
     "PilotSampler",
+    "PointPush",
+    "PushSamples",
     "ScratchValues",
     "Symbols",
     "TracedAssembly",
@@ -44,12 +50,17 @@ __all__ = [
     "TracedStep",
     "VehicleStep",
     "assemble",
+    "by_direction",
     "draw_count",
     "draw_normals",
     "floor_is_near",
+    "gust_velocity",
     "is_of_vehicle",
+    "lag",
     "nearest_walls",
+    "push_at",
     "push_is_active",
+    "push_moment",
     "templates_from",
     "trace_assembly",
     "walls_are_due",

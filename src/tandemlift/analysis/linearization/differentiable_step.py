@@ -15,15 +15,13 @@ from tandemlift.analysis.linearization.period import delayed_numbers, differenti
 from tandemlift.analysis.linearization.step_derivative import REFINED
 from tandemlift.analysis.linearization.step_graph import StepGraph, leaf_names
 from tandemlift.compiler.derivatives import IteratedStep, JaxStep, StepForm, TorchStep, inlined
-from tandemlift.compiler.tracer import Function, Place, Symbol, elementary
+from tandemlift.compiler.tracer import Function, Place, Symbol, to_integer
 from tandemlift.core.algebra import where
 from tandemlift.core.errors import InputError, shown, unknown
 from tandemlift.core.types import Array, leaves, rebuilt
 from tandemlift.missions import MissionLike, mission_of
-from tandemlift.parts.mechanics.push import push_at
-from tandemlift.parts.mechanics.wind import gust_velocity
 from tandemlift.simulation.caller_values import count_of, held_inputs
-from tandemlift.simulation.graphs import write_limits, write_solver
+from tandemlift.simulation.graphs import gust_velocity, push_at, write_limits, write_solver
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import GAUSSIAN, GUST, leaf_offset
 
@@ -157,7 +155,7 @@ class ClosedStep:
         by = {
             g.input(kind, i).node: g.number(value) for kind, values in formed.items() for i, value in enumerate(values)
         }
-        whole: Any = elementary.to_integer(cast(float, number))
+        whole: Any = to_integer(cast(float, number))
         return by | {g.input("number", type="i").node: whole.node}
 
     def _solved(self) -> dict[int, int]:

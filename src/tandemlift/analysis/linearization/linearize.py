@@ -26,8 +26,7 @@ from tandemlift.core.errors import InputError, shown, unknown
 from tandemlift.core.types import Array, flat, unflat
 from tandemlift.core.vector import Absent, Quat
 from tandemlift.missions import MissionLike, mission_of
-from tandemlift.parts.mechanics.push import push_moment
-from tandemlift.parts.rotors.rotor_lag import by_direction
+from tandemlift.simulation.graphs import by_direction, push_moment
 from tandemlift.simulation.preparation import leaf_offset
 from tandemlift.simulation.simulation import Simulation
 

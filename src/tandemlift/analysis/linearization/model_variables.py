@@ -12,11 +12,9 @@ from tandemlift.analysis.linearization.step_graph import NO_PUSH
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.types import flat, leaves, unflat
 from tandemlift.core.vector import Absent, Quat
-from tandemlift.flight.channels import channel_of
-from tandemlift.flight.data_frames import column_names
-from tandemlift.parts.mechanics.push import PointPush, PushSamples, push_at
+from tandemlift.flight.channels import channel_of, column_names
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.mechanics.wind import gust_velocity
+from tandemlift.simulation.graphs import PointPush, PushSamples, gust_velocity, push_at
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import GAUSSIAN, GUST, InputTables, leaf_offset
 from tandemlift.simulation.results import channels_of

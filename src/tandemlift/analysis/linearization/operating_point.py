@@ -11,7 +11,7 @@ import numpy as np
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.types import Array, flat
 from tandemlift.missions import Mission, MissionTable, calm_time
-from tandemlift.parts.rotors.rotor_lag import lag
+from tandemlift.simulation.graphs import lag
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import leaf_offset
 from tandemlift.simulation.simulation import Simulation

@@ -15,8 +15,7 @@ from tandemlift.compiler.derivatives import smooth_arguments
 from tandemlift.core.caching import LastUsed
 from tandemlift.core.types import is_value, leaves
 from tandemlift.core.vector import ZERO, Mat3
-from tandemlift.parts.mechanics.push import PointPush, PushSamples
-from tandemlift.simulation.graphs import TracedStep, templates_from
+from tandemlift.simulation.graphs import PointPush, PushSamples, TracedStep, templates_from
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import leaf_offset
 

@@ -10,7 +10,7 @@ from tandemlift.analysis.studies.closed_form import YAW, AxisFeel, axes_of
 from tandemlift.core.errors import FAILS, CheckResult, judged
 from tandemlift.core.types import GRAVITY, LN_20
 from tandemlift.missions import HoverFacts, Mission, MissionLike, mission_of
-from tandemlift.missions.flight_checks import flight_checks
+from tandemlift.missions.checks import flight_checks
 from tandemlift.parts.controllers import tilt_limit_of
 
 DRIFT_SIGMAS = 2.0  # standard deviations of the sensors' drift

@@ -142,7 +142,7 @@ def schema(controller: str | None) -> None:
       tandemlift schema > mission.schema.json
       #:schema ./mission.schema.json
     """
-    from tandemlift.missions.json_schema import mission_schema
+    from tandemlift.missions.reference import mission_schema
 
     if controller is not None:
         chosen_controller(controller)

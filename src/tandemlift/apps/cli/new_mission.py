@@ -16,8 +16,7 @@ import numpy as np
 
 from tandemlift.core.errors import InputError, unknown, written
 from tandemlift.core.files import DATA, toml_tables
-from tandemlift.missions import Mission, VehicleTable, idle_keys, load_mission, tables_of
-from tandemlift.missions.changes import value_at
+from tandemlift.missions import Mission, VehicleTable, idle_keys, load_mission, tables_of, value_at
 from tandemlift.missions.key_descriptions import sections
 
 FOLDER = DATA / "quadrotors"

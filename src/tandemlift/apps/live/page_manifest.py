@@ -19,7 +19,6 @@ from tandemlift.apps.live.session.parameters import BY_KEY, CHOICES, RAMP, bound
 from tandemlift.apps.live.session.scene_builder import scene_of
 from tandemlift.apps.live.session.server_messages import SceneParameter
 from tandemlift.apps.live.session.status import in_sentences
-from tandemlift.codegen.module_text import ValuesFunction
 from tandemlift.core.errors import InputError
 from tandemlift.core.refusals import refusals_for, sentences
 from tandemlift.core.types import flat, zeroed
@@ -30,6 +29,7 @@ from tandemlift.missions.recording import HAND_FILE, MISSION_FILE
 from tandemlift.simulation.outcome import ENDING_PARTS, ending_from, ending_parts, ending_texts
 from tandemlift.simulation.parameter_changes import HAND_PARTS, LATER, NO_EFFECT, scheduled_change
 from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation.module_text import ValuesFunction
 from tandemlift.simulation.recorded_flight import EMPTY_FLIGHT, HAND_RELEASED
 from tandemlift.simulation.refusals import refusal_numbers
 from tandemlift.simulation.stepping import GUIDANCE_MEMORY

@@ -20,7 +20,7 @@ import os
 import stat
 import sys
 import tempfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -135,6 +135,13 @@ def remove(key: str) -> None:
     if path is not None:
         with contextlib.suppress(OSError):
             path.unlink()
+
+
+def kept(key: str, make: Callable[[], StoredCode]) -> StoredCode:
+    """The entry of a key, else made and stored, unless it is empty."""
+    if not (entry := read(key)) and (entry := make()).code:
+        write(key, entry)
+    return entry
 
 
 def _trim(home: Path) -> None:

@@ -5,6 +5,7 @@ without a machine instruction; `llvm` writes the graph as text, which `machine_c
 """
 
 from tandemlift.compiler.tracer import elementary  # gives symbols their functions
+from tandemlift.compiler.tracer.elementary import to_integer
 from tandemlift.compiler.tracer.fused import rounded_twice, traced, tracer
 from tandemlift.compiler.tracer.graph import LEAVES, Graph, laid_out, symbols, written_out
 from tandemlift.compiler.tracer.llvm import Function
@@ -27,6 +28,7 @@ __all__ = [
     "refused",
     "rounded_twice",
     "symbols",
+    "to_integer",
     "traced",
     "tracer",
     "written_out",

@@ -9,8 +9,7 @@ from pydantic import ValidationError
 
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.keys import Table
-from tandemlift.missions import Tables, problems_in
-from tandemlift.missions.changes import Place
+from tandemlift.missions import Place, Tables, problems_in
 
 T = TypeVar("T", bound=Table)
 

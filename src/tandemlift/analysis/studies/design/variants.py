@@ -15,9 +15,7 @@ from tandemlift.analysis.studies.design.settings import StudySettings
 from tandemlift.core.errors import InputError, unknown, without_flight_warnings
 from tandemlift.core.plugs import Plugin, PluginText, has, listed, load_sent, plugins_in
 from tandemlift.engines.registry import engine_named
-from tandemlift.missions import Layer, MissionTemplate, Tables, check, merge
-from tandemlift.missions.changes import value_at
-from tandemlift.missions.loading import placed, read_tables
+from tandemlift.missions import Layer, MissionTemplate, Tables, check, merge, placed, read_tables, value_at
 from tandemlift.missions.recording import hold_recording
 from tandemlift.parts.controllers import CONTROLLERS, Controller, controller, load_controller
 

@@ -16,8 +16,8 @@ from typing import Any, NamedTuple
 from tandemlift.compiler.machine_code.functions import results_of
 from tandemlift.compiler.tracer import Function, Graph, Module, Place, double, rounded_twice
 from tandemlift.core.types import leaves
-from tandemlift.simulation.graphs import LoopWriter
-from tandemlift.simulation.preparation import LoopCode
+from tandemlift.simulation.preparation.compiled_flight import LoopCode
+from tandemlift.simulation.preparation.loops import LoopWriter
 
 
 class ValuesFunction(NamedTuple):
