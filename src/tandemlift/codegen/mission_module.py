@@ -25,16 +25,18 @@ from tandemlift.core.types import flat, leaves
 from tandemlift.flight.channels import channel_of
 from tandemlift.missions import Mission, MissionLike, mission_of, tables_of
 from tandemlift.simulation.caller_values import portable_mission
-from tandemlift.simulation.graphs import TracedAssembly, assemble, trace_assembly
-from tandemlift.simulation.parameter_changes import hand_place
-from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.preparation import POINTERS, WORDS
-from tandemlift.simulation.preparation.module_text import (
+from tandemlift.simulation.graphs import (
+    TracedAssembly,
     ValuesFunction,
+    assemble,
+    trace_assembly,
     write_flight_loop,
     write_ramp,
     write_values_function,
 )
+from tandemlift.simulation.parameter_changes import hand_place
+from tandemlift.simulation.plan import FlightPlan
+from tandemlift.simulation.preparation import POINTERS, WORDS
 from tandemlift.simulation.results import channel_columns
 
 FUNCTIONS = ("prepare", "fly", "ramp")

@@ -25,6 +25,12 @@ from tandemlift.simulation.loop.external_inputs import (
 from tandemlift.simulation.preparation.assemble import AssembledFlight, assemble
 from tandemlift.simulation.preparation.limit_solver import LimitProblem, TracedSolver
 from tandemlift.simulation.preparation.loops import write_limits, write_solver
+from tandemlift.simulation.preparation.module_text import (
+    ValuesFunction,
+    write_flight_loop,
+    write_ramp,
+    write_values_function,
+)
 from tandemlift.simulation.preparation.pilot_sampling import PilotDataState, PilotSampler
 from tandemlift.simulation.preparation.precompute import ScratchValues
 from tandemlift.simulation.preparation.step_end import COMMAND_LINE
@@ -48,6 +54,7 @@ __all__ = [
     "TracedAssembly",
     "TracedSolver",
     "TracedStep",
+    "ValuesFunction",
     "VehicleStep",
     "assemble",
     "by_direction",
@@ -67,6 +74,9 @@ __all__ = [
     "with_gust",
     "with_push",
     "with_values",
+    "write_flight_loop",
     "write_limits",
+    "write_ramp",
     "write_solver",
+    "write_values_function",
 ]
