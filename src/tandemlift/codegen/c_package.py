@@ -19,9 +19,8 @@ from tandemlift.codegen.prepare import PrepareFile
 from tandemlift.core.files import check_own, write_files
 from tandemlift.core.types import Array, leaves
 from tandemlift.missions import Mission, tables_of
-from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.fly import fly
-from tandemlift.simulation.graphs import trace_assembly, with_values
+from tandemlift.simulation.graphs import portable_mission, trace_assembly, with_values
 from tandemlift.simulation.pilot_api import INPUT, Pilot, pilot_at_start
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import FlightMemory

@@ -24,19 +24,19 @@ from tandemlift.core.files import __version__, write_files
 from tandemlift.core.types import flat, leaves
 from tandemlift.flight.channels import channel_of
 from tandemlift.missions import Mission, MissionLike, mission_of, tables_of
-from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.graphs import (
     TracedAssembly,
     ValuesFunction,
     assemble,
+    portable_mission,
     trace_assembly,
     write_flight_loop,
     write_ramp,
     write_values_function,
 )
-from tandemlift.simulation.parameter_changes import hand_place
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import POINTERS, WORDS
+from tandemlift.simulation.recorded_flight import hand_place
 from tandemlift.simulation.results import channel_columns
 
 FUNCTIONS = ("prepare", "fly", "ramp")

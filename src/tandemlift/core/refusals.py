@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple, get_args
 
-from tandemlift.core.faults import ALARM_TEXTS, CHECKS
+from tandemlift.core.faults import ALARM_TEXTS as ALARM_TEXTS
+from tandemlift.core.faults import CHECKS
 
 Request = Literal["lift", "land", "push"]
 REQUESTS: tuple[Request, ...] = get_args(Request)

@@ -26,13 +26,28 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array, flat
 from tandemlift.core.vector import Absent, Quat
 from tandemlift.engines.compiled import start_state
-from tandemlift.engines.gazebo_server import GazeboServer, free_port, gazebo_window
+from tandemlift.engines.gazebo_server import (
+    GazeboServer,
+    free_port,
+    gazebo_window,
+    has_display,
+    root,
+    shell_command_for_user,
+)
 from tandemlift.engines.gazebo_wire import PluginAnswer, Wire
 from tandemlift.engines.models import sdf
 from tandemlift.engines.models.scene import Scene
 from tandemlift.engines.touches import KINDS, SURFACES, ContactLog
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle
+
+__all__ = [
+    "GazeboBody",
+    "has_display",
+    "root",
+    "running_gazebo",
+    "shell_command_for_user",
+]
 
 NONE = Absent()
 UNSOUND = 1e8  # N, beyond which the flight has diverged

@@ -25,12 +25,47 @@ from tandemlift.missions.recording import HAND_FILE, MISSION_FILE, WIDTH, Record
 from tandemlift.parts.person.virtual_hand import HAND_RELEASED, VirtualHandInput
 from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.loop.running_metrics import EMPTY
-from tandemlift.simulation.outcome import ending_of, place_of
-from tandemlift.simulation.parameter_changes import ScheduledChange, scheduled_change
+from tandemlift.simulation.outcome import (
+    ENDING_PARTS,
+    ending_from,
+    ending_of,
+    ending_parts,
+    ending_texts,
+    place_of,
+)
+from tandemlift.simulation.parameter_changes import (
+    HAND_PARTS,
+    LATER,
+    NO_EFFECT,
+    ScheduledChange,
+    hand_place,
+    scheduled_change,
+)
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import leaf_offset
+from tandemlift.simulation.refusals import refusal_numbers
 from tandemlift.simulation.results import RawResult, flight_of, take_metrics
 from tandemlift.simulation.stepping import Stepper, body_of
+
+__all__ = [
+    "EMPTY_FLIGHT",
+    "ENDING_PARTS",
+    "HAND_PARTS",
+    "HAND_RELEASED",
+    "LATER",
+    "NO_EFFECT",
+    "FlightSetup",
+    "FlightSnapshot",
+    "RecordedFlight",
+    "ending_from",
+    "ending_parts",
+    "ending_texts",
+    "hand_place",
+    "refusal_numbers",
+    "save_flight",
+    "scheduled_change",
+    "setup_flight",
+]
 
 FLYING = "flying"  # the outcome of a flight that continues
 EMPTY_FLIGHT = "nothing was flown yet: there is nothing to save"

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from tandemlift.compiler.derivatives import OPERATIONS, PARTIALS, smooth_arguments
+from tandemlift.compiler.machine_code.derivatives import OPERATIONS, PARTIALS, smooth_arguments
 from tandemlift.compiler.tracer import LEAVES, Graph
 from tandemlift.core.types import Array
 

@@ -14,16 +14,16 @@ from tandemlift.analysis.linearization.operating_point import OperatingPoint, fl
 from tandemlift.analysis.linearization.period import delayed_numbers, differentiate, values_under_way
 from tandemlift.analysis.linearization.step_derivative import REFINED
 from tandemlift.analysis.linearization.step_graph import StepGraph, leaf_names
-from tandemlift.compiler.derivatives import IteratedStep, JaxStep, StepForm, TorchStep, inlined
+from tandemlift.compiler.machine_code.derivatives import IteratedStep, JaxStep, StepForm, TorchStep, inlined
 from tandemlift.compiler.tracer import Function, Place, Symbol, to_integer
 from tandemlift.core.algebra import where
 from tandemlift.core.errors import InputError, shown, unknown
 from tandemlift.core.types import Array, leaves, rebuilt
 from tandemlift.missions import MissionLike, mission_of
-from tandemlift.simulation.caller_values import count_of, held_inputs
 from tandemlift.simulation.graphs import gust_velocity, push_at, write_limits, write_solver
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import GAUSSIAN, GUST, leaf_offset
+from tandemlift.simulation.simulation import count_of, held_inputs
 
 ACTIONS = ("push", "thrusts", "velocity")
 MOTION = {"position": 3, "velocity": 3, "attitude": 4, "rates": 3}

@@ -11,11 +11,10 @@ from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from tandemlift.compiler.derivatives import smooth_arguments
-from tandemlift.core.caching import LastUsed
+from tandemlift.compiler.machine_code.derivatives import smooth_arguments
 from tandemlift.core.types import is_value, leaves
 from tandemlift.core.vector import ZERO, Mat3
-from tandemlift.simulation.graphs import PointPush, PushSamples, TracedStep, templates_from
+from tandemlift.simulation.graphs import LastUsed, PointPush, PushSamples, TracedStep, templates_from
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import leaf_offset
 

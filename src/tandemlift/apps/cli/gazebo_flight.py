@@ -11,8 +11,7 @@ from tandemlift import Flight
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Progress
-from tandemlift.engines.gazebo import running_gazebo
-from tandemlift.engines.gazebo_server import root, shell_command_for_user
+from tandemlift.engines.gazebo import root, running_gazebo, shell_command_for_user
 from tandemlift.missions import Mission
 from tandemlift.simulation.fly import fly
 from tandemlift.simulation.recorded_flight import RecordedFlight

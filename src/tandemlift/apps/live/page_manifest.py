@@ -27,11 +27,20 @@ from tandemlift.missions import Tables, tables_of
 from tandemlift.missions.key_descriptions import allowed, bounds, plain
 from tandemlift.missions.recording import HAND_FILE, MISSION_FILE
 from tandemlift.simulation.graphs import ValuesFunction
-from tandemlift.simulation.outcome import ENDING_PARTS, ending_from, ending_parts, ending_texts
-from tandemlift.simulation.parameter_changes import HAND_PARTS, LATER, NO_EFFECT, scheduled_change
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.recorded_flight import EMPTY_FLIGHT, HAND_RELEASED
-from tandemlift.simulation.refusals import refusal_numbers
+from tandemlift.simulation.recorded_flight import (
+    EMPTY_FLIGHT,
+    ENDING_PARTS,
+    HAND_PARTS,
+    HAND_RELEASED,
+    LATER,
+    NO_EFFECT,
+    ending_from,
+    ending_parts,
+    ending_texts,
+    refusal_numbers,
+    scheduled_change,
+)
 from tandemlift.simulation.stepping import GUIDANCE_MEMORY
 
 LEVEL, TIMES, RULE = Quat(1.0, 0.0, 0.0, 0.0), frames.PhaseTimes(*4 * [0.0]), TouchRule(0.0, 0.0, 0.0)

@@ -139,9 +139,12 @@ def remove(key: str) -> None:
 
 def kept(key: str, make: Callable[[], StoredCode]) -> StoredCode:
     """The entry of a key, else made and stored, unless it is empty."""
-    if not (entry := read(key)) and (entry := make()).code:
-        write(key, entry)
-    return entry
+    if found := read(key):
+        return found
+    made = make()
+    if made.code:
+        write(key, made)
+    return made
 
 
 def _trim(home: Path) -> None:

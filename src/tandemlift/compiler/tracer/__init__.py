@@ -12,24 +12,3 @@ from tandemlift.compiler.tracer.llvm import Function
 from tandemlift.compiler.tracer.refusal import TraceError, refused
 from tandemlift.compiler.tracer.symbol import Symbol
 from tandemlift.compiler.tracer.text import Module, Place, ScratchLayout, double
-
-__all__ = [
-    "LEAVES",
-    "Function",
-    "Graph",
-    "Module",
-    "Place",
-    "ScratchLayout",
-    "Symbol",
-    "TraceError",
-    "double",
-    "elementary",
-    "laid_out",
-    "refused",
-    "rounded_twice",
-    "symbols",
-    "to_integer",
-    "traced",
-    "tracer",
-    "written_out",
-]

@@ -12,25 +12,3 @@ from tandemlift.simulation.loop.sources import LeafSpan, delayed_spans, leaf_off
 from tandemlift.simulation.preparation.compiled_flight import LoopCode
 from tandemlift.simulation.preparation.memory import COUNTS, POINTERS, WORDS, FlightMemory, FlightStart, TimeGrid
 from tandemlift.simulation.preparation.templates import COMMAND, GIVEN, PythonController
-
-__all__ = [
-    "COMMAND",
-    "COUNTS",
-    "GAUSSIAN",
-    "GIVEN",
-    "GUST",
-    "LANES",
-    "POINTERS",
-    "SPAN",
-    "WORDS",
-    "FlightMemory",
-    "FlightStart",
-    "InputTables",
-    "LeafSpan",
-    "LoopCode",
-    "PythonController",
-    "TimeGrid",
-    "delayed_spans",
-    "leaf_offset",
-    "machine_of",
-]

@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike
 
 from tandemlift.apps.live.session import frames
 from tandemlift.apps.live.session import server_messages as server
-from tandemlift.core.faults import ALARM_TEXTS
 from tandemlift.core.files import __version__
 from tandemlift.core.phases import PHASE_NAMES
+from tandemlift.core.refusals import ALARM_TEXTS
 from tandemlift.core.types import Array
 from tandemlift.engines.models.visuals import BEAM_RADIUS, SHAPELESS, VisualShape, vehicle_shapes
 from tandemlift.parts.contact.surroundings import floor_height_of

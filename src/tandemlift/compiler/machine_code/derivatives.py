@@ -9,5 +9,3 @@ from tandemlift.compiler.machine_code.jax_step import JaxStep
 from tandemlift.compiler.machine_code.torch_step import TorchStep
 from tandemlift.compiler.tracer.differentiation import PARTIALS, smooth_arguments
 from tandemlift.compiler.tracer.valued_graph import OPERATIONS
-
-__all__ = ["OPERATIONS", "PARTIALS", "IteratedStep", "JaxStep", "StepForm", "TorchStep", "inlined", "smooth_arguments"]
