@@ -134,17 +134,17 @@ def advance(
 
 @cached
 def readings_at_rest(
-    plant: CompiledPlant,
-    s: State,
+    body: CompiledPlant,
+    state: State,
     grip: Quarters[FootGrip] | Absent,
     near: NearWalls | Absent,
     thrusts: PerRotor,
     hand: PushSamples[Push],
 ) -> PerfectReadings:
-    """Perfect readings in still air in state `s` under rotor thrusts [N]."""
-    b = BodySurroundings(plant, Absent(), grip, near)
-    k1 = motion(b, s, wrench(plant.effect, thrusts), hand.start)
-    return readings_in(b, s, k1, Absent(), thrusts, Absent())
+    """Perfect readings in still air under rotor thrusts [N]."""
+    b = BodySurroundings(body, Absent(), grip, near)
+    k1 = motion(b, state, wrench(body.effect, thrusts), hand.start)
+    return readings_in(b, state, k1, Absent(), thrusts, Absent())
 
 
 @cached
@@ -183,12 +183,8 @@ def plant_from(scene: Scene, vehicle: Vehicle) -> CompiledPlant:
     return start_plant(scene, vehicle, floor_from(scene, vehicle), walls_from(scene, vehicle))
 
 
-def start_state(scene: Scene) -> State:
-    """The state of a mission at t = 0."""
-    return _state(scene.initial)
-
-
 @cached
-def _state(initial: InitialTable) -> State:
+def start_state(initial: InitialTable) -> State:
+    """The state at t = 0."""
     attitude = quaternion_from_euler(vec3(initial.euler))
     return State(vec3(initial.position), vec3(initial.velocity), attitude, vec3(initial.rates))

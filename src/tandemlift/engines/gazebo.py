@@ -241,7 +241,7 @@ def world_from(scene: Scene, plugin: int | str, **more: str) -> str:
 
 def start_state_from(scene: Scene) -> Array:
     """The state (13,) that a mission starts in, of the real centre of mass."""
-    state = np.array(flat(start_state(scene)))
+    state = np.array(flat(start_state(scene.initial)))
     move_state(state, np.array(scene.plant.center_of_mass_offset))
     return state
 

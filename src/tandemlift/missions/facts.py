@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import reduce
+from inspect import unwrap
+from types import MappingProxyType
 from typing import Any
 
 from tandemlift.core.algebra import minimum
@@ -56,23 +58,30 @@ MADE: Mapping[str, Callable[..., Any]] = {
 
 
 class Facts(dict[str, Any]):
-    """The facts of a mission by name, each made once, when it is first read."""
+    """The facts of a mission by name, each made once, when it is first read.
 
-    def __init__(self, mission: Mission) -> None:
-        super().__init__()
-        self.of = mission
+    Args:
+        mission: which they are of; `scene` is its view for an engine.
+        more: what makes further facts, as `MADE` does.
+    """
+
+    def __init__(self, mission: Mission, more: Mapping[str, Callable[..., Any]] = MappingProxyType({})) -> None:
+        super().__init__(scene=mission)
+        self.of, self._made = mission, {**MADE, **more}
 
     def __missing__(self, name: str) -> Any:
         if name == "started":  # not kept: a circle would outlive the numbers that are traced
             return self.started
-        self[name] = made = self.call(MADE[name]) if name in MADE else getattr(self.of, name)
+        self[name] = made = self.call(self._made[name]) if name in self._made else getattr(self.of, name)
         return made
 
     def call(self, function: Callable[..., Any], own: Mapping[str, Any] | None = None) -> Any:
         """A function of facts; `own`: other arguments by name."""
-        code = function.__code__
+        code = unwrap(function).__code__  # of a cached function, which has its arguments by place
         names = code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
-        return function(**{name: own[name] if own and name in own else self[name] for name in names})
+        given = [own[name] if own and name in own else self[name] for name in names]
+        by_name = dict(zip(names[code.co_argcount :], given[code.co_argcount :], strict=True))
+        return function(*given[: code.co_argcount], **by_name)
 
     def ask(self, part: Part, function: Callable[..., Any], **own: Any) -> Any:
         """A function that a part declares."""

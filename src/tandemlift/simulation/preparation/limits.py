@@ -10,26 +10,31 @@ from tandemlift.core.caching import cached
 from tandemlift.core.phases import FLIES, HARD
 from tandemlift.core.types import GRAVITY, Number
 from tandemlift.core.vector import Absent, Vec3, vec3
-from tandemlift.missions.mission import Mission
-from tandemlift.missions.outcomes import CrashTable, FindingsTable, promise_of
+from tandemlift.missions.outcomes import CrashTable, FindingsTable, PromiseTable, promise_of
+from tandemlift.parts.contact.standing import GroundTable
 from tandemlift.parts.guidance.admittance import AdmittanceTable
+from tandemlift.parts.guidance.compliance import ComplianceTable
 from tandemlift.parts.guidance.supervision import SupervisionTable
 from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle_table import PlantTable
 from tandemlift.parts.rotors.rotors import ActuatorsTable
 from tandemlift.simulation.loop.detectors import ASLEEP, Detectors, FindingLimits, PushLimits
 from tandemlift.simulation.loop.ending import Aftermath, CrashLimits, CrashMemory, OuterFence, Strike
 from tandemlift.simulation.loop.oscillation import OscillationLimits, Swings
 
 
-def crash_limits_from(c: CrashTable, supervision: SupervisionTable, mass: Number, *, floor: bool) -> CrashLimits:
-    """The limits of a flight with this true mass [kg]; each part that it does not have is `Absent`."""
-    fence, watched = supervision.fence, supervision.model == "on"
-    max_impulse = mass * HARD if c.impulse is None else c.impulse
+def crash_limits_from(
+    crash: CrashTable, supervision: SupervisionTable, nominal: Vehicle, plant: PlantTable, ground: GroundTable
+) -> CrashLimits:
+    """The limits of a flight; each part that it does not have is `Absent`."""
+    fence, watched, mass = supervision.fence, supervision.model == "on", nominal.mass * plant.mass_scale
+    max_impulse = mass * HARD if crash.impulse is None else crash.impulse
     return CrashLimits(
-        min_upright=cos(c.tilt) if c.tilt < 3.14159 else -2.0,
-        strike=Strike(mass * GRAVITY, max_impulse) if floor else Absent(),
-        fence=OuterFence(vec3(fence.low), vec3(fence.high), c.fence_margin) if watched else Absent(),
-        aftermath=Aftermath(c.fly_on) if c.fly_on > 0.0 else Absent(),
+        min_upright=cos(crash.tilt) if crash.tilt < 3.14159 else -2.0,
+        strike=Strike(mass * GRAVITY, max_impulse) if ground.model != "none" else Absent(),
+        fence=OuterFence(vec3(fence.low), vec3(fence.high), crash.fence_margin) if watched else Absent(),
+        aftermath=Aftermath(crash.fly_on) if crash.fly_on > 0.0 else Absent(),
     )
 
 
@@ -45,19 +50,27 @@ LEAST, LEAST_FORCE = 0.1, 0.01  # of the smallest threshold, and N: the least fo
 UNLIMITED = 1e6  # m/s
 
 
-def finding_limits_from(m: Mission) -> FindingLimits:
-    """The limits of a mission's detectors."""
-    promised, f, vehicle = promise_of(m.promise, m.pilot.guidance), m.findings, m.nominal
+def finding_limits_from(
+    promise: PromiseTable,
+    guidance: str,
+    findings: FindingsTable,
+    nominal: Vehicle,
+    actuators: ActuatorsTable,
+    admittance: AdmittanceTable,
+    compliance: ComplianceTable,
+) -> FindingLimits:
+    """The limits of the detectors."""
+    promised, f, by_hand = promise_of(promise, guidance), findings, guidance == "interactive"
     return FindingLimits(
         settled=promised.settling_time,
         distance=promised.distance * promised.distance,
         sinking=promised.sinking,
         heading=promised.heading,
         upright=cos(promised.tilt),
-        mass=vehicle.mass,
-        thrust=vehicle.max_thrust * vehicle.max_thrust if m.actuators.model == "rotors" else math.inf,
+        mass=nominal.mass,
+        thrust=nominal.max_thrust * nominal.max_thrust if actuators.model == "rotors" else math.inf,
         rate=f.oscillation_rate * f.oscillation_rate,
-        push=_push_limits(m.admittance, f, m.compliance.max_speed, m.by_hand is not None),
+        push=_push_limits(admittance, f, compliance.max_speed, by_hand),
         unpushed=f.unpushed_distance,
         oscillation=OscillationLimits(
             levels=Swings(f.oscillation_rate, f.oscillation_rate, f.oscillation_rate, f.oscillation_speed),
