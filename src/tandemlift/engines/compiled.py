@@ -134,17 +134,17 @@ def advance(
 
 @cached
 def readings_at_rest(
-    body: CompiledPlant,
-    state: State,
+    plant: CompiledPlant,
+    s: State,
     grip: Quarters[FootGrip] | Absent,
     near: NearWalls | Absent,
     thrusts: PerRotor,
     hand: PushSamples[Push],
 ) -> PerfectReadings:
-    """Perfect readings in still air under rotor thrusts [N]."""
-    b = BodySurroundings(body, Absent(), grip, near)
-    k1 = motion(b, state, wrench(body.effect, thrusts), hand.start)
-    return readings_in(b, state, k1, Absent(), thrusts, Absent())
+    """Perfect readings in still air in state `s` under rotor thrusts [N]."""
+    b = BodySurroundings(plant, Absent(), grip, near)
+    k1 = motion(b, s, wrench(plant.effect, thrusts), hand.start)
+    return readings_in(b, s, k1, Absent(), thrusts, Absent())
 
 
 @cached

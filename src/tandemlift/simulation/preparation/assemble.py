@@ -163,7 +163,8 @@ def start_perception(facts: Facts) -> tuple[dict[str, Any], dict[str, Any], Sens
     readings: Any = Absent()
     if not isinstance(devices, Absent):
         state, waits = facts["state"], first_samples(sensors, step)
-        sensing = start_sensing(devices, state, facts.call(readings_at_rest), state.attitude, waits)
+        perfect = facts.call(readings_at_rest, {"plant": facts["body"], "s": state})
+        sensing = start_sensing(devices, state, perfect, state.attitude, waits)
         readings = readings_of(sensing)
     estimators, known = start_estimators(facts, readings)
     if facts["supervised"]:
