@@ -16,12 +16,12 @@ from tandemlift.core.files import __version__ as __version__
 if TYPE_CHECKING:
     from tandemlift.analysis.certification.certify import certify
     from tandemlift.analysis.certification.mission_check import check
+    from tandemlift.analysis.differentiable.differentiable_step import jax_step, torch_step
     from tandemlift.analysis.identification.excitation_design import excite
     from tandemlift.analysis.identification.identify import identify
     from tandemlift.analysis.identification.shadow import shadow
     from tandemlift.analysis.learning.block import Block
     from tandemlift.analysis.learning.registration import register_environments
-    from tandemlift.analysis.linearization.differentiable_step import jax_step, torch_step
     from tandemlift.analysis.linearization.linear_model import LinearModel
     from tandemlift.analysis.linearization.linearize import linearize
     from tandemlift.analysis.studies.feel import feel
@@ -64,7 +64,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "fly_many": "simulation.fly",
     "grade": "apps.teaching.grading",
     "identify": "analysis.identification.identify",
-    "jax_step": "analysis.linearization.differentiable_step",
+    "jax_step": "analysis.differentiable.differentiable_step",
     "linearize": "analysis.linearization.linearize",
     "load_controller": "parts.controllers.user_controller",
     "load_mission": "missions",
@@ -77,7 +77,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "register_environments": "analysis.learning.registration",
     "shadow": "analysis.identification.shadow",
     "study": "analysis.studies.study",
-    "torch_step": "analysis.linearization.differentiable_step",
+    "torch_step": "analysis.differentiable.differentiable_step",
     "train": "analysis.studies.tuning.tune",
     "tune": "analysis.studies.tuning.tune",
 }

@@ -54,17 +54,13 @@ class Plug(NamedTuple):
     table: Any = None
 
 
-def _unchanged(made: Plug) -> Plug:
-    return made
-
-
 class Registry(dict[str, Any]):
     """The parts of a kind by name, and the function that registered each."""
 
     def __init__(self, kind: str) -> None:
         super().__init__()
         self.kind, self.made_by = kind, dict[str, Any]()
-        self._take: Callable[[Plug], Any] = _unchanged
+        self._take: Callable[[Plug], Any] = lambda made: made
 
     def open(self, take: Callable[[Plug], Any]) -> None:
         """Make parts of what is registered, by the module of the kind, which may be imported after a plugin."""
@@ -118,8 +114,7 @@ def plug(kind: str, name: str, table: Any = None) -> Callable[[F], F]:
 
     def keep(part: F) -> F:
         summary = (inspect.getdoc(part) or "").partition("\n")[0]
-        made = Plug(kind, name, summary, part, table)
-        PLUGS[kind].take(made)
+        PLUGS[kind].take(Plug(kind, name, summary, part, table))
         return part
 
     return keep

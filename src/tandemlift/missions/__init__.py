@@ -23,7 +23,6 @@ from tandemlift.missions.changes import (
 from tandemlift.missions.checking import Layer, changed, check
 from tandemlift.missions.facts import RESTLESS, calm_time
 from tandemlift.missions.loading import (
-    DATA,
     MAX_FILE,
     MissionLike,
     MissionTemplate,

@@ -17,7 +17,6 @@ from tandemlift.analysis.linearization.step_graph import StateChoice, StepGraph
 from tandemlift.core.types import Array, leaves
 from tandemlift.simulation.graphs import COMMAND_LINE
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.preparation import delayed_spans
 
 
 class DelayedNumber(NamedTuple):
@@ -34,7 +33,7 @@ class DelayedNumber(NamedTuple):
 def delayed_numbers(p: FlightPlan) -> list[DelayedNumber]:
     """The delayed numbers of a flight, in the order of a row of the delay lines."""
     found, column = list[DelayedNumber](), 0
-    for line, (at, size) in enumerate(delayed_spans(p.model)):
+    for line, (at, size) in enumerate(p.loop_code.delayed):
         steps = int(p.delays[line]) if size else 0
         under_way = max(steps - 1, 0) if line == COMMAND_LINE else steps  # a command acts in its own step
         found += [DelayedNumber(at + i, column + i, under_way) for i in range(size)]

@@ -178,7 +178,8 @@ def missions(name: str | None) -> None:
       tandemlift missions
       tandemlift missions iris > mine.toml
     """
-    from tandemlift.missions import DATA, built_in
+    from tandemlift.core.files import DATA
+    from tandemlift.missions import built_in
 
     if name is None:
         _print_table(built_in())

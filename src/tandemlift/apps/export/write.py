@@ -27,7 +27,8 @@ from tandemlift.core.errors import InputError, extra
 from tandemlift.core.files import atomic_write
 from tandemlift.core.phases import PHASE_NAMES
 from tandemlift.core.types import Array
-from tandemlift.engines.models.written import MODEL, ROBOT, WORLD, model_of
+from tandemlift.engines.models.written import ENDINGS as MODELS
+from tandemlift.engines.models.written import WORLD, model_of
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, check, format_toml
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -208,7 +209,7 @@ def is_model(path: Path) -> bool:
         InputError: its ending belongs to no known format.
     """
     ending = path.suffix.lower()
-    if ending not in (*FORMATS, WORLD, MODEL, ROBOT):
+    if ending not in (*FORMATS, *MODELS):
         raise InputError(f"{path}: {ENDINGS}")
     return ending not in FORMATS
 

@@ -241,9 +241,6 @@ def wall_shape(wall: Mapping[str, Any]) -> VisualShape:
 
 # ---- Cameras: the directions from which a vehicle is viewed, by name or by angles
 
-NEAR = 0.05  # m, distance of the near clipping plane
-ANGLE = np.radians(30.0)  # vertical field of view [rad]
-
 
 @dataclass(frozen=True)
 class Camera:

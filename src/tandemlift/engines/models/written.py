@@ -9,7 +9,8 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 if TYPE_CHECKING:
     from tandemlift.engines.models.scene import Scene
 
-WORLD, MODEL, ROBOT = ".sdf", ".xml", ".urdf"  # of Gazebo, of MuJoCo, and the robot description of ROS
+ENDINGS = (".sdf", ".xml", ".urdf")  # of a world of Gazebo, a model of MuJoCo, a robot description of ROS
+WORLD, _, ROBOT = ENDINGS
 
 
 def model_of(scene: Scene, ending: str, plugin: int | str | None = None) -> str:
@@ -17,7 +18,7 @@ def model_of(scene: Scene, ending: str, plugin: int | str | None = None) -> str:
 
     Args:
         scene: of a mission.
-        ending: `WORLD`, `MODEL` or `ROBOT`.
+        ending: one of `ENDINGS`.
         plugin: of a world, the port of Gazebo's plugin, or "ros" for the one that is led over ROS 1.
 
     Raises:

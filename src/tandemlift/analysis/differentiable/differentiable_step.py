@@ -7,6 +7,9 @@ from typing import Any, cast
 
 import numpy as np
 
+from tandemlift.analysis.differentiable.iterated import IteratedStep, StepForm
+from tandemlift.analysis.differentiable.jax_step import JaxStep
+from tandemlift.analysis.differentiable.torch_step import TorchStep
 from tandemlift.analysis.linearization.kinks import Kink, kinks_near
 from tandemlift.analysis.linearization.linearize import linearization_plan
 from tandemlift.analysis.linearization.model_variables import outputs_from
@@ -14,7 +17,7 @@ from tandemlift.analysis.linearization.operating_point import OperatingPoint, fl
 from tandemlift.analysis.linearization.period import delayed_numbers, differentiate, values_under_way
 from tandemlift.analysis.linearization.step_derivative import REFINED
 from tandemlift.analysis.linearization.step_graph import StepGraph, leaf_names
-from tandemlift.compiler.machine_code.derivatives import IteratedStep, JaxStep, StepForm, TorchStep, inlined
+from tandemlift.compiler.machine_code.derivatives import inlined
 from tandemlift.compiler.tracer import Function, Place, Symbol, to_integer
 from tandemlift.core.algebra import where
 from tandemlift.core.errors import InputError, shown, unknown
