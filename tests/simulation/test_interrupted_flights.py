@@ -75,7 +75,7 @@ def test_what_was_flown_until_the_engine_is_lost_is_kept_with_the_reason(how, lo
     mission = tl.load_mission("hover", SHORT)
     lost(last=10**6)
     whole = tl.fly(mission, "gazebo")
-    monkeypatch.setattr(gazebo, "STEPPING", 2.0 if how == "is silent" else gazebo.STEPPING)
+    monkeypatch.setattr(gazebo, "STEPPING", 2.0 if how == "is silent" else gazebo.STEP_TIMEOUT)
     port = lost(how).port
     flight = tl.fly(mission, "gazebo")
     assert flight.outcome == "interrupted"

@@ -50,11 +50,11 @@ __all__ = [
 ]
 
 NONE = Absent()
-UNSOUND = 1e8  # N, beyond which the flight has diverged
-RESTING = 0.1  # s, between messages that keep the session alive while no step is taken
-STARTING, STEPPING = 60.0, 10.0  # s, after which a server that does not answer is given up
+DIVERGED_FORCE = 1e8  # N, beyond which the flight has diverged
+KEEP_ALIVE_TIME = 0.1  # s, between messages that keep the session alive while no step is taken
+START_TIMEOUT, STEP_TIMEOUT = 60.0, 10.0  # s, after which a server that does not answer is given up
 CHECKS: dict[int, Callable[[], None]] = {}  # by port: of servers that this process has started, for a flight to join
-CLOSE = 1e-9  # relative tolerance of the world's step and mass
+TOLERANCE = 1e-9  # relative tolerance of the world's step and mass
 
 PORT, REAL_TIME = "TANDEMLIFT_GAZEBO_PORT", "TANDEMLIFT_GAZEBO_REAL_TIME"
 
@@ -84,7 +84,7 @@ class PluginLink(Protocol):
 def _connect(scene: Scene, vehicle: Vehicle) -> tuple[GazeboServer | None, PluginLink]:
     """Connect to the plugin over UDP, of a server started for the flight unless a port is named."""
     server, port = _find_server(scene)
-    return server, Wire(port, vehicle.count, STEPPING, server.check if server else CHECKS.get(port))
+    return server, Wire(port, vehicle.count, STEP_TIMEOUT, server.check if server else CHECKS.get(port))
 
 
 class GazeboBody:
@@ -141,9 +141,9 @@ class GazeboBody:
         """Wait for the plugin, and check that its world fits the scene."""
         try:
             if self.server:
-                self._wire.patience = STARTING
+                self._wire.patience = START_TIMEOUT
             _check_world(self._hello(), scene, vehicle)
-            self._wire.patience = STEPPING
+            self._wire.patience = STEP_TIMEOUT
         except TimeoutError as error:
             output = self.server.last_output() if self.server else ""
             self.close()
@@ -158,7 +158,7 @@ class GazeboBody:
         Raises:
             OSError: the session is over, the server has ended, or does not answer.
         """
-        if not thrusts.dot(thrusts) < UNSOUND * UNSOUND:  # also NaN, which is below nothing
+        if not thrusts.dot(thrusts) < DIVERGED_FORCE * DIVERGED_FORCE:  # also NaN, which is below nothing
             self.state.fill(np.nan)
             self.readings.fill(np.nan)
             return
@@ -197,7 +197,7 @@ class GazeboBody:
     def rest(self) -> None:
         """Keep the session alive without a step; see `registry.WaitingBody`."""
         now = time.monotonic()
-        if self._begun and now - self._rested > RESTING:
+        if self._begun and now - self._rested > KEEP_ALIVE_TIME:
             self._wire.keep_alive()
             self._rested = now
 
@@ -264,7 +264,7 @@ def _check_world(answer: PluginAnswer, scene: Scene, vehicle: Vehicle) -> None:
     _, step, mass = answer.clock
     true_mass = vehicle.mass * scene.plant.mass_scale
     for what, given, wanted, unit in (("step", step, scene.mission.step, "s"), ("mass", mass, true_mass, "kg")):
-        if abs(given - wanted) > CLOSE * wanted:
+        if abs(given - wanted) > TOLERANCE * wanted:
             raise InputError(
                 f"engine 'gazebo': the world in Gazebo has a {what} of {given:g} {unit}, the mission {wanted:g} "
                 f"{unit}; export the mission again and start Gazebo with it"

@@ -26,7 +26,7 @@ ROOT = "TANDEMLIFT_GAZEBO_ROOT"
 MASTER = "GAZEBO_MASTER_URI"
 SETUP = "/usr/share/gazebo/setup.sh"
 NOTHING_MORE: Mapping[str, str] = MappingProxyType({})
-SHOWN = 12  # last lines of the server's output that are shown
+SHOWN_LINES = 12  # last lines of the server's output that are shown
 COLORS = re.compile("\x1b\\[[0-9;]*m")
 FAILING = ("Failed to load plugin libtandemlift", "the plugin rests")
 SOUND = ("ALSA lib", "AL lib")  # complaints about missing loudspeakers
@@ -117,7 +117,7 @@ class GazeboServer:
 
     def last_output(self) -> str:
         """The last lines of the server's output, ready to be appended to a message; empty without output."""
-        lines = self._lines()[-SHOWN:]
+        lines = self._lines()[-SHOWN_LINES:]
         return "; its last output:\n  " + "\n  ".join(lines) if lines else ""
 
     def close(self) -> None:

@@ -39,7 +39,7 @@ JOIN = "TANDEMLIFT_GAZEBO_ROS"
 URI, IP, HOST = "ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME"
 LOGS, LOGGING = "ROS_LOG_DIR", "ROS_PYTHON_LOG_CONFIG_FILE"
 NODE = "tandemlift_pilot"
-STARTING = 30.0  # s, after which a master that does not answer is given up
+START_TIMEOUT = 30.0  # s, after which a master that does not answer is given up
 SCRIPT = "rosmaster --core -p {port} & read -r end; kill $!; wait"  # ends when its pipe is closed
 
 
@@ -211,7 +211,7 @@ class RosMaster:
 
     def _wait(self, port: int) -> None:
         """Wait until the master answers at the port."""
-        deadline = time.monotonic() + STARTING
+        deadline = time.monotonic() + START_TIMEOUT
         while time.monotonic() < deadline and self._process.poll() is None:
             with contextlib.suppress(OSError), socket.create_connection(("127.0.0.1", port)):
                 return

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 from tandemlift.core.errors import CLOSE, FAILS, OK, REFUSED, SETTINGS, CheckResult, InputError, refused
-from tandemlift.core.phases import HARD
+from tandemlift.core.phases import CRASH_SPEED
 from tandemlift.missions import outcomes
 from tandemlift.missions.facts import Facts
 from tandemlift.missions.flight_checks import FlightCheck, flight_checks
@@ -104,7 +104,7 @@ def mission_checks(m: Mission) -> Iterator[CheckResult]:
         yield from estimator.bias_warnings(e, m.sensors.joints.force_bias, m.pilot.push)
         yield from estimator.tare_warnings(e, p, m.pushes, end)
     if over_floor:
-        limit = hover.mass * HARD if m.crash.impulse is None else m.crash.impulse
+        limit = hover.mass * CRASH_SPEED if m.crash.impulse is None else m.crash.impulse
         stands = standing.standing_on(m.ground, m.vehicle, m.plant.mass_scale, m.mission.step, m.initial)
         yield from standing.floor_warnings(m.ground, m.vehicle, m.actuators.model, m.mission.step, stands)
         yield from standing.start_warnings(p, stands)

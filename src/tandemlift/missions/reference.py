@@ -40,7 +40,7 @@ from tandemlift.missions.refusals import present_name
 from tandemlift.parts.controllers import CONTROLLERS, ControllerTable
 from tandemlift.parts.guidance.admittance import AdmittanceTable
 
-NEAREST = 3
+NEAREST_KEYS = 3
 
 
 def explained(name: str, controller: str = "") -> str:
@@ -149,7 +149,7 @@ def nearest_three(given: str, names: dict[str, str]) -> list[str]:
         last = difflib.SequenceMatcher(None, given.rpartition(".")[2], name.rpartition(".")[2]).ratio()
         return max(whole, 0.5 * (whole + last), last - 0.05)
 
-    return [names[name] for name in sorted(names, key=likeness, reverse=True)[:NEAREST]]
+    return [names[name] for name in sorted(names, key=likeness, reverse=True)[:NEAREST_KEYS]]
 
 
 # ---- The template

@@ -12,7 +12,16 @@ from typing import Any, NamedTuple
 
 from tandemlift.core.algebra import atan2, chosen, maximum, sqrt, where
 from tandemlift.core.law import law
-from tandemlift.core.phases import DIVERGED, ENDING_OF, ENDINGS, FAR, LEFT_FENCE, STRUCK, TURNED_OVER, EndingKind
+from tandemlift.core.phases import (
+    DIVERGED,
+    ENDING_OF,
+    ENDINGS,
+    LARGEST_DISTANCE,
+    LEFT_FENCE,
+    STRUCK,
+    TURNED_OVER,
+    EndingKind,
+)
 from tandemlift.core.trajectories import PhasesTable
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Absent, Vec3, dot
@@ -28,9 +37,9 @@ from tandemlift.simulation.loop.step import FlightState
 from tandemlift.simulation.plan import FlightPlan
 
 NOT_FINITE = "must be finite"
-STEEPEST = 1.875  # slope of the smooth step that a landing follows
+LARGEST_SLOPE = 1.875  # slope of the smooth step that a landing follows
 MARGIN = 1.0  # s, in which a landing should touch down after its reference
-BORNE = 0.5  # of the weight: the part that the floor carries of a standing vehicle
+BORNE_SHARE = 0.5  # of the weight: the part that the floor carries of a standing vehicle
 DEGREE = 57.29577951308232  # 180/π
 
 
@@ -155,7 +164,7 @@ def limit_of(p: FlightPlan, number: float) -> str:
         return f"must stay below {limits.strike.impulse:.3g} N s"
     if number == LEFT_FENCE:
         return f"must stay below {p.mission.crash.fence_margin:g} m"
-    return f"must stay below {FAR:g} m"
+    return f"must stay below {LARGEST_DISTANCE:g} m"
 
 
 def cause_of(p: FlightPlan, number: float) -> str:
@@ -198,7 +207,7 @@ def _stands(p: FlightPlan, state: State, last: Sample, start: float, end: float)
     mission, slow = p.mission, math.dist(state.velocity, ZERO) < p.mission.outcome.landed_speed
     strike = p.model.limits.strike
     if not isinstance(last.contact, Absent) and not isinstance(strike, Absent):
-        return slow and last.contact.contact_force.z > BORNE * strike.weight
+        return slow and last.contact.contact_force.z > BORNE_SHARE * strike.weight
     land = mission.phases.land_start
     if land is None or land + mission.phases.land_duration > end:
         return False
@@ -209,4 +218,6 @@ def landing_time(p: PhasesTable, by_hand: ComplianceTable | None) -> float:
     """The longest time of a landing from the height of the lift [s]; `by_hand`: limits of interactive guidance."""
     if by_hand is None:
         return p.land_duration
-    return max(p.land_duration, STEEPEST * (p.height + by_hand.touchdown_depth) / by_hand.max_descent_speed) + MARGIN
+    return (
+        max(p.land_duration, LARGEST_SLOPE * (p.height + by_hand.touchdown_depth) / by_hand.max_descent_speed) + MARGIN
+    )

@@ -36,7 +36,7 @@ BEAM_RADIUS = 0.03  # m, of a beam whose radius is not given
 EDGE_RADIUS = 0.005  # m, of the edges of a hull
 SEGMENTS = 16  # straight pieces of a guard ring
 LEVEL = np.eye(3)
-SHORTEST = 1e-6  # m, a shorter cylinder is left out
+SHORTEST_CYLINDER = 1e-6  # m, a shorter cylinder is left out
 
 
 def rgba_of(color: str, opacity: float = 1.0) -> list[float]:
@@ -85,7 +85,7 @@ def cylinder(name: str, start: ArrayLike, end: ArrayLike, radius: float, color: 
     """A cylinder from one point to another; none if the points coincide."""
     a, b = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
     length = float(np.linalg.norm(b - a))
-    if length < SHORTEST:
+    if length < SHORTEST_CYLINDER:
         return []
     return [VisualShape(name, "cylinder", (radius, length), (a + b) / 2.0, frame_along(b - a), color)]
 
@@ -179,7 +179,7 @@ def _mount(q: Quadrotor, depth: float) -> list[VisualShape]:
     """The strut to the joint, and the sensor's collar where the strut leaves the payload."""
     s, joint = mean_arm(q), np.subtract(q.joint_position, q.position)
     length = float(np.linalg.norm(joint))
-    if length < SHORTEST:
+    if length < SHORTEST_CYLINDER:
         return []
     first = min(depth, 0.8 * length)
     start, end = joint * (1.0 - first / length), joint * (1.0 - min(first + 0.16 * s, length) / length)

@@ -31,8 +31,8 @@ from tandemlift.parts.controllers.interface import (
     Measured,
     NoMemory,
     control,
-    tilt_limit_of,
 )
+from tandemlift.parts.controllers.interface import tilt_limit_of as tilt_limit_of
 from tandemlift.parts.controllers.registry import CONTROLLERS, Controller, error_text, file_of, register
 from tandemlift.parts.controllers.user_controller import controller, load_controller
 from tandemlift.parts.mechanics.rigid_body import UP, State, Wrench, apply_inertia, gyroscopic, inertia_value
@@ -100,7 +100,6 @@ __all__ = [
     "rotation_from_euler",
     "smc",
     "super_twisting",
-    "tilt_limit_of",
     "total_thrust",
     "tracked_attitude",
     "wanted_force",

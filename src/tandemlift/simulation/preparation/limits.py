@@ -7,7 +7,7 @@ from typing import Any
 
 from tandemlift.core.algebra import cos, maximum, minimum, where
 from tandemlift.core.caching import cached
-from tandemlift.core.phases import FLIES, HARD
+from tandemlift.core.phases import CRASH_SPEED, FLIES
 from tandemlift.core.types import GRAVITY, Number
 from tandemlift.core.vector import Absent, Vec3, vec3
 from tandemlift.missions.outcomes import CrashTable, FindingsTable, PromiseTable, promise_of
@@ -29,7 +29,7 @@ def crash_limits_from(
 ) -> CrashLimits:
     """The limits of a flight; each part that it does not have is `Absent`."""
     fence, watched, mass = supervision.fence, supervision.model == "on", nominal.mass * plant.mass_scale
-    max_impulse = mass * HARD if crash.impulse is None else crash.impulse
+    max_impulse = mass * CRASH_SPEED if crash.impulse is None else crash.impulse
     return CrashLimits(
         min_upright=cos(crash.tilt) if crash.tilt < 3.14159 else -2.0,
         strike=Strike(mass * GRAVITY, max_impulse) if ground.model != "none" else Absent(),
@@ -45,9 +45,9 @@ def start_crash(limits: CrashLimits, state: State) -> Any:
     return CrashMemory(FLIES, 0.0, state, Absent() if isinstance(limits.strike, Absent) else 0.0, 0.0)
 
 
-HEARD = 2.0  # times the threshold, above which a true push should have an effect
-LEAST, LEAST_FORCE = 0.1, 0.01  # of the smallest threshold, and N: the least force after the gate that counts
-UNLIMITED = 1e6  # m/s
+HEARD_FACTOR = 2.0  # times the threshold, above which a true push should have an effect
+LEAST_SHARE, LEAST_FORCE = 0.1, 0.01  # of the smallest threshold, and N: the least force after the gate that counts
+UNLIMITED_SPEED = 1e6  # m/s
 
 
 def finding_limits_from(
@@ -92,15 +92,15 @@ def start_detectors(actuators: ActuatorsTable) -> Detectors:
 def _push_limits(
     a: AdmittanceTable, f: FindingsTable, max_speed: tuple[float, float, float], by_hand: bool
 ) -> PushLimits:
-    least = maximum(minimum(minimum(*a.threshold[:2]), a.threshold[2]) * LEAST, LEAST_FORCE)
+    least = maximum(minimum(minimum(*a.threshold[:2]), a.threshold[2]) * LEAST_SHARE, LEAST_FORCE)
     times = [_over(m, c) for m, c in zip(a.mass, a.damping, strict=True)]
     return PushLimits(
-        threshold=Vec3(*a.threshold) * HEARD if by_hand else Absent(),
+        threshold=Vec3(*a.threshold) * HEARD_FACTOR if by_hand else Absent(),
         least=least * least,
         inverse_damping=Vec3(
             *[where(k > 0.0, 0.0, _over(1.0, c)) for k, c in zip(a.stiffness, a.damping, strict=True)]
         ),
-        speed=Vec3(*max_speed) if by_hand else Vec3(UNLIMITED, UNLIMITED, UNLIMITED),
+        speed=Vec3(*max_speed) if by_hand else Vec3(UNLIMITED_SPEED, UNLIMITED_SPEED, UNLIMITED_SPEED),
         time=f.push_time + maximum(maximum(times[0], times[1]), times[2]),
         response=f.push_response,
     )

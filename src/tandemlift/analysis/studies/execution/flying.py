@@ -92,7 +92,7 @@ def _one_by_one(
         except Exception as error:
             if not refusals:
                 raise
-            results.append(error if isinstance(mission, InputError) else refusal_of(error, mission))
+            results.append(error if isinstance(mission, InputError) else refusal_of(error))
         if progress:
             progress(len(results), len(missions))
     return results
