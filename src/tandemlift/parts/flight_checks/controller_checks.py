@@ -65,8 +65,8 @@ def start_checks(
         tilt = abs(place * i.position[along] + speed * i.velocity[along]) / max(abs(angle), 1e-12)
         text = (
             f"at the start the controller commands {tilt:.3g} rad of tilt along {'xy'[along]}, and {LARGEST_TILT:g} "
-            "rad is what flights recover from: start nearer to the reference (initial.position, initial.velocity), or set "
-            "controller.max_tilt"
+            "rad is what flights recover from: start nearer to the reference (initial.position, initial.velocity), or "
+            "set controller.max_tilt"
         )
         yield judged("start", tilt, LARGEST_TILT, "rad", text, subject=f"tilt along {'xy'[along]}")
 
