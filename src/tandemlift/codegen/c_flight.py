@@ -17,10 +17,11 @@ from tandemlift.codegen.c.statements import Statements
 from tandemlift.codegen.c.text import FunctionHead, function
 from tandemlift.codegen.c_pilot import write_limits, write_solver
 from tandemlift.codegen.number_facts import described
+from tandemlift.compiler.tracer import Symbol
 from tandemlift.core.types import leaves, rebuilt
 from tandemlift.core.vector import ZERO
 from tandemlift.simulation import graphs
-from tandemlift.simulation.graphs import COMMAND_LINE, ROWS, Symbols, TracedStep, draw_count, templates_from
+from tandemlift.simulation.graphs import COMMAND_LINE, ROWS, TracedStep, draw_count, templates_from
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import COUNTS
 
@@ -147,7 +148,7 @@ class FlightFile:
         x, like = self.traced, self.templates.moved
         moved = body.variable(x.input_of("moved", like), "moved")
 
-        def move(numbers: Symbols) -> None:
+        def move(numbers: list[Symbol]) -> None:
             value: Any = rebuilt(iter(numbers), like)
             body.compute([s.node for s in numbers])
             body.line(f"{moved} = {body.value(value)};")

@@ -30,9 +30,7 @@ from tandemlift.simulation.graphs import (
     assemble,
     portable_mission,
     trace_assembly,
-    write_flight_loop,
-    write_ramp,
-    write_values_function,
+    write_flight_module,
 )
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import POINTERS, WORDS
@@ -125,9 +123,7 @@ def _written(
     plan: FlightPlan, traced: TracedAssembly, machine: Machine, functions: Sequence[ValuesFunction]
 ) -> tuple[str, dict[str, Any]]:
     """The text of a module, and what the manifest needs of it: see `manifest_of`."""
-    loop = write_flight_loop(plan.loop_code, machine.draw_lanes, machine.largest)
-    write_ramp(loop.module)
-    sizes = {f.name: (f.width, write_values_function(loop.module, f)) for f in functions}
+    loop, sizes = write_flight_module(plan.loop_code, machine.draw_lanes, machine.largest, functions)
     about = {"prepared": write_prepare(loop.module, traced), "work": loop.scratch.size, "functions": sizes}
     return loop.module.text, about
 

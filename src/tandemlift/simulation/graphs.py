@@ -27,16 +27,11 @@ from tandemlift.simulation.loop.external_inputs import (
 from tandemlift.simulation.preparation.assemble import AssembledFlight, assemble
 from tandemlift.simulation.preparation.limit_solver import LimitProblem, TracedSolver
 from tandemlift.simulation.preparation.loops import write_limits, write_solver
-from tandemlift.simulation.preparation.module_text import (
-    ValuesFunction,
-    write_flight_loop,
-    write_ramp,
-    write_values_function,
-)
+from tandemlift.simulation.preparation.module_text import ValuesFunction, write_flight_module
 from tandemlift.simulation.preparation.pilot_sampling import PilotDataState, PilotSampler
 from tandemlift.simulation.preparation.precompute import ScratchValues
 from tandemlift.simulation.preparation.step_end import COMMAND_LINE
 from tandemlift.simulation.preparation.templates import templates_from
 from tandemlift.simulation.preparation.traced_assembly import TracedAssembly, trace_assembly, with_values
-from tandemlift.simulation.preparation.traced_step import Symbols, TracedStep
+from tandemlift.simulation.preparation.traced_step import TracedStep
 from tandemlift.simulation.preparation.vehicle_step import VehicleStep, is_of_vehicle

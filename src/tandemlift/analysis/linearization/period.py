@@ -123,7 +123,7 @@ class _Lines:
 def step_inputs(r: LinearizationPlan, numbers: Array, step: int) -> StepSeeds:
     """The inputs of a step of the period, with a seed for each state but those under way, and for each input."""
     p, kept = r.point.plan, r.choice.kept
-    given = given_at(p.tables, (r.point.k + step) * p.dt, p.dt)
+    given = given_at(p, (r.point.k + step) * p.dt)
     given["noise"] = [0.0] * leaves(p.given.noise)
     given["external"] = [*r.point.external] or [0.0] * leaves(p.given.external)
     eye = np.eye(len(kept) + len(r.inputs))
