@@ -46,7 +46,7 @@ from tandemlift.parts.rotors.ground_effect import GroundEffect, ground_effect_fr
 from tandemlift.parts.rotors.rotor_lag import Lag, lag, lag_step
 
 NO_PUSH = CentralPush(ZERO)
-_models = LastUsed["DrivenModels"](4)
+_models = LastUsed["DrivenModels"](4)  # a search forms thousands of predictions, and each log of a set a predictor
 AT_REST = State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO)
 
 

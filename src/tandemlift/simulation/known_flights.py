@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from tandemlift.simulation.plan import FlightPlan
     from tandemlift.simulation.results import RawResult
 
+# this module is in a room of laws, and has none: it would hide every flight
 WITH_LAWS = re.compile(r"tandemlift\.((parts|missions|engines|compiler\.tracer)\b|simulation\.(?!known_flights))")
 _CODES = dict[str, Code]()  # that fly in this process
 Numbers = NDArray[np.float64]

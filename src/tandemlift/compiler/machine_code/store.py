@@ -138,7 +138,7 @@ def remove(key: str) -> None:
 
 
 def kept(key: str, make: Callable[[], StoredCode]) -> StoredCode:
-    """The entry of a key, else made and stored, unless it is empty."""
+    """The entry of a key, else made and stored; an empty one, by which a caller only asks, is not."""
     if found := read(key):
         return found
     made = make()
