@@ -94,7 +94,7 @@ def open_loop(engine: str, count: int) -> dict[str, float]:
     """The bodies alone, both under the same thrusts: the largest differences, of positions by coordinate."""
     mission = unlike(count)
     vehicle, h = Vehicle.from_settings(mission.vehicle), mission.mission.step
-    state, plant = start_state(mission), start_plant(mission, vehicle, NONE, NONE)
+    state, plant = start_state(mission.initial), start_plant(mission, vehicle, NONE, NONE)
     body = engine_named(engine).start(mission, vehicle, NONE, NONE)
     hand, rotors, thrusts_at = (
         PushSamples(*[CentralPush(ZERO)] * 3),

@@ -10,7 +10,7 @@ from __future__ import annotations
 import argparse
 import ast
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
@@ -105,6 +105,26 @@ def draw_files(package: Path = PACKAGE) -> Drawing:
             if one.imported in files and one.imported != name:
                 arrows[name, one.imported].append(one)
     return Drawing(tuple(sorted(files)), dict(arrows))
+
+
+def uses(package: Path, doors: Container[str]) -> dict[str, set[str]]:
+    """What other doors use of the modules behind some: their names; of a module imported whole, its attributes."""
+    modules, found = dict(_modules(package)), defaultdict[str, set[str]](set)
+    for name, path in modules.items():
+        whole = dict[str, str]()
+        for one in [] if _door(name) in {"", *APART} or _door(name) in doors else _imports(name, path, modules):
+            if _door(one.imported) in doors:
+                found[one.imported].update(one.names)
+                whole |= {} if one.names else {one.imported.rpartition(".")[2]: one.imported}
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))) if whole else ():
+            if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id in whole:
+                found[whole[node.value.id]].add(node.attr)
+    return dict(found)
+
+
+def _door(module: str) -> str:
+    """The folder at the package's top that a module is in, or the module itself; "" of the package."""
+    return (*module.split("."), "")[1]
 
 
 def _modules(package: Path) -> Iterator[tuple[str, Path]]:

@@ -16,7 +16,7 @@ import numpy as np
 import tandemlift as tl
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission
-from tandemlift.parts.flight_checks.authority import PUSHED
+from tandemlift.parts.flight_checks.authority import HAND_MASS
 
 MISSIONS = (
     *("iris", "crazyflie-stick", "two-x500", "heavy-payload", "off-centre-push", "rotor-loss", "gusts"),
@@ -72,11 +72,11 @@ def drawn_hand(seed: int, family: Family, member: int) -> Hand:
     plain = tl.load_mission(family.base, {**HOVER, **common})
     kind = KINDS[(family.number + member) % len(KINDS)]
     condition = str(rng.choice(CONDITIONS, p=[0.5, 0.25, 0.25]))
-    scale = plain.hover.mass / PUSHED
+    scale = plain.hover.mass / HAND_MASS
     own: dict[str, Any] = {
         "nominal": {},
         "low battery": {"plant.thrust_scale": BATTERY * plain.plant.thrust_scale},
-        "+0.3 kg": {"plant.mass_scale": plain.plant.mass_scale + LOAD / PUSHED},
+        "+0.3 kg": {"plant.mass_scale": plain.plant.mass_scale + LOAD / HAND_MASS},
     }[condition]
     before = {**HOVER, **common, **own, "mission.seed": int(rng.integers(1, 10**6))}
     changes = before | DRAWS[kind](rng, plain, scale)

@@ -27,7 +27,7 @@ from tandemlift.analysis.certification.shakes import (
     shaken_hands,
 )
 from tandemlift.missions import Mission
-from tandemlift.parts.flight_checks.authority import PUSHED
+from tandemlift.parts.flight_checks.authority import HAND_MASS
 
 WITHIN, RATIOS = 0.15, np.geomspace(0.5, 2.0, 15)  # of a flown peak to a predicted one
 LOWEST, HIGHEST = 0.5, 10.0  # Hz
@@ -80,7 +80,7 @@ def compared(seed: int, draws: int, mujoco: int, bases: tuple[str, ...]) -> Iter
     done = 0
     for base in dict.fromkeys(chosen):
         mission = mission_to_shake(base)
-        places, tried = shaken_hands(mission)[:: len(FREQUENCIES)], MOST * mission.hover.mass / PUSHED
+        places, tried = shaken_hands(mission)[:: len(FREQUENCIES)], MOST * mission.hover.mass / HAND_MASS
         hands = [
             places[rng.integers(len(places))]._replace(
                 frequency=math.exp(rng.uniform(math.log(LOWEST), math.log(HIGHEST)))

@@ -16,12 +16,12 @@ from tandemlift.core.files import __version__ as __version__
 if TYPE_CHECKING:
     from tandemlift.analysis.certification.certify import certify
     from tandemlift.analysis.certification.mission_check import check
+    from tandemlift.analysis.differentiable.differentiable_step import jax_step, torch_step
     from tandemlift.analysis.identification.excitation_design import excite
     from tandemlift.analysis.identification.identify import identify
     from tandemlift.analysis.identification.shadow import shadow
     from tandemlift.analysis.learning.block import Block
     from tandemlift.analysis.learning.registration import register_environments
-    from tandemlift.analysis.linearization.differentiable_step import jax_step, torch_step
     from tandemlift.analysis.linearization.linear_model import LinearModel
     from tandemlift.analysis.linearization.linearize import linearize
     from tandemlift.analysis.studies.feel import feel
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from tandemlift.apps.export.logs import read_log
     from tandemlift.apps.live.notebook_page import page
     from tandemlift.apps.teaching.grading import grade
-    from tandemlift.codegen.known_flights import fly
     from tandemlift.codegen.mission_module import compile_mission
     from tandemlift.core.errors import FlightWarning, InputError
     from tandemlift.core.plugs import plug
@@ -41,6 +40,7 @@ if TYPE_CHECKING:
     from tandemlift.parts.mechanics.vehicle import Vehicle
     from tandemlift.pictures.figures.registry import plot
     from tandemlift.simulation.fly import fly_many
+    from tandemlift.simulation.known_flights import fly
     from tandemlift.simulation.pilot_api import Pilot
     from tandemlift.simulation.simulation import Simulation
 
@@ -60,11 +60,11 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "compile_mission": "codegen.mission_module",
     "excite": "analysis.identification.excitation_design",
     "feel": "analysis.studies.feel",
-    "fly": "codegen.known_flights",
+    "fly": "simulation.known_flights",
     "fly_many": "simulation.fly",
     "grade": "apps.teaching.grading",
     "identify": "analysis.identification.identify",
-    "jax_step": "analysis.linearization.differentiable_step",
+    "jax_step": "analysis.differentiable.differentiable_step",
     "linearize": "analysis.linearization.linearize",
     "load_controller": "parts.controllers.user_controller",
     "load_mission": "missions",
@@ -77,7 +77,7 @@ _HOMES = {  # loaded when first used, so that `import tandemlift` is quick
     "register_environments": "analysis.learning.registration",
     "shadow": "analysis.identification.shadow",
     "study": "analysis.studies.study",
-    "torch_step": "analysis.linearization.differentiable_step",
+    "torch_step": "analysis.differentiable.differentiable_step",
     "train": "analysis.studies.tuning.tune",
     "tune": "analysis.studies.tuning.tune",
 }

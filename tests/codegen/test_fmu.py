@@ -12,12 +12,12 @@ import tandemlift as tl
 from tandemlift.codegen import fmu_binaries
 from tandemlift.codegen.fmu import fmu_of
 from tandemlift.codegen.fmu_sources import flight_part, pilot_part
-from tandemlift.codegen.vehicle_step import is_of_vehicle
-from tandemlift.flight.data_frames import column_names
+from tandemlift.flight.channels import column_names
 from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.parameter_changes import scheduled_change
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation.traced_assembly import trace_assembly
+from tandemlift.simulation.preparation.vehicle_step import is_of_vehicle
 from tools import need
 
 BOTH = pytest.mark.parametrize("fmi", [2, 3])

@@ -13,7 +13,7 @@ from fmu_importer import Fmu
 
 import tandemlift as tl
 from tandemlift.codegen.fmu_binaries import zig
-from tandemlift.flight.data_frames import column_names
+from tandemlift.flight.channels import column_names
 from tandemlift.missions import built_in
 
 pytestmark = pytest.mark.clients

@@ -16,7 +16,6 @@ from listings import LAW
 
 import tandemlift as tl
 from tandemlift.codegen.mission_module import TARGETS, compile_mission, module_of
-from tandemlift.codegen.module_text import write_flight_loop, write_ramp
 from tandemlift.codegen.wasm_linker import LinkError, Reader, linked, signed, unsigned
 from tandemlift.compiler.machine_code import machine
 from tandemlift.compiler.tracer import Module
@@ -24,6 +23,7 @@ from tandemlift.parts.controllers import load_controller
 from tandemlift.simulation.parameter_changes import ParameterRamp, ScheduledChange
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation.memory import WORDS
+from tandemlift.simulation.preparation.module_text import write_flight_loop, write_ramp
 
 
 def wasm_object(mission: tl.Mission) -> bytes:

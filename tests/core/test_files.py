@@ -12,7 +12,7 @@ import pytest
 
 import tandemlift as tl
 from tandemlift.codegen import fmu
-from tandemlift.core.file_set import write_files
+from tandemlift.core.files import write_files
 
 LARGEST = 4000  # bytes of a file: none of those below is smaller
 COMMANDS = {

@@ -11,7 +11,7 @@ from tandemlift.core.vector import Absent
 from tandemlift.flight.channels import CHANNELS, DERIVED, STAMP
 from tandemlift.flight.channels import GROUPS as CHANNEL_GROUPS
 from tandemlift.parts.estimation.contact_detection import ContactEstimateChannels
-from tandemlift.parts.estimation.disturbance_observer import DisturbanceChannels
+from tandemlift.parts.guidance.disturbance_observer import DisturbanceChannels
 from tandemlift.parts.guidance.hand_guidance import HandGuidanceChannels
 from tandemlift.parts.guidance.policy import PolicyChannels
 from tandemlift.parts.guidance.supervision import SupervisionChannels

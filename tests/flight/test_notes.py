@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.flight.printed_summary import notes, summary_lines
 from tandemlift.pictures.report.flight_report import write_report
+from tandemlift.pictures.report.printed_summary import notes, summary_lines
 
 LIMIT = 5.84e-6 * 1100.0**2  # N, of a rotor of an IRIS
 

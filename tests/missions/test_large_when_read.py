@@ -91,4 +91,4 @@ def test_of_thousands_of_problems_only_those_that_are_told_are_put_into_words(wr
     first, *_, last = str(refused.value).splitlines()
     assert what in first
     assert int(last.split()[-2]) > 5_000  # all are counted
-    assert len(worded) <= 4 * refusals.MOST  # some keys have several problems, told as one
+    assert len(worded) <= 4 * refusals.MOST_PROBLEMS  # some keys have several problems, told as one

@@ -15,8 +15,7 @@ import tandemlift as tl
 from tandemlift.apps.cli.main import cli
 from tandemlift.missions import DATA, Mission, built_in, load_mission, tables_of
 from tandemlift.missions.changes import MISSING, value_at
-from tandemlift.missions.json_schema import mission_schema
-from tandemlift.missions.reference import template_text
+from tandemlift.missions.reference import mission_schema, template_text
 
 SAID = mission_schema()
 VALIDATOR = Draft7Validator(SAID)

@@ -38,6 +38,16 @@ def test_the_house_has_no_more_than_its_limits(table, draw):
     assert_none(over, f"{counts}, at most {limits()[table]}: see `python tools/rooms.py -v`, and cut an arrow")
 
 
+def test_other_doors_use_the_nucleus_by_its_fronts():
+    used, most = rooms.uses(PACKAGE, limits()["wings"]["nucleus"]["of"]), limits()["fronts"]
+    counts = {"modules": len(used), "names": sum(map(len, used.values()))}
+    advice = f"{counts}, at most {most}: ask one front for a whole, or move what only others use"
+    assert_none([name for name in most if counts[name] > most[name]], advice)
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["importlinter"]["contracts"]
+    named = {line.split()[-1] for one in settings for line in one.get("ignore_imports", ())}
+    assert named == set(used), "the contracts of pyproject.toml name the fronts"
+
+
 def lines_of_wings():
     """Lines of Python of each wing: a folder belongs to the wing that names it, or the nearest folder above it."""
     wings = limits()["wings"]
@@ -66,6 +76,8 @@ def test_no_limit_was_ever_lower():
             assert today["doors"][name] <= most, f"doors, {name}: lower in {commit[:8]}: cut an arrow instead"
         for wing, before in earlier.get("wings", {}).items():
             assert today["wings"][wing]["lines"] <= before["lines"], f"{wing}: lower in {commit[:8]}"
+        for name, most in earlier.get("fronts", {}).items():
+            assert today["fronts"][name] <= most, f"fronts, {name}: lower in {commit[:8]}"
         for name, before in earlier.get("exceptions", {}).items():
             assert_none(set(today["exceptions"][name]) - set(before), f"{name}: not there in {commit[:8]}")
 
@@ -163,6 +175,14 @@ def test_rooms_that_import_each_other_by_others_are_a_circle_on_one_floor(small)
     drawing = small({"base/numbers.py": "if TYPE_CHECKING:\n    from small.top import show"})
     assert drawing.circles == [["alone", "base", "top"]]
     assert drawing.floors == [["alone", "base", "top"], ["top.inner"]]
+
+
+def test_what_other_doors_use_is_counted_by_name_and_by_attribute_of_a_whole_module(small, tmp_path):
+    small({"top/whole.py": "from small.base import numbers\nprint(numbers.NUMBER, numbers.MORE)"})
+    assert rooms.uses(tmp_path / "small", ["base"]) == {
+        "small.base": {"NUMBER"},
+        "small.base.numbers": {"NUMBER", "MORE"},
+    }
 
 
 def test_a_module_without_a_neighbour_is_found(small, tmp_path):

@@ -21,10 +21,10 @@ def public_names():
     import tandemlift as tl
     import tandemlift.core.algebra as algebra
     import tandemlift.parts.controllers as tc
+    from tandemlift.analysis.studies.metric_descriptions import METRIC_GROUPS
     from tandemlift.apps.cli import flying, main
     from tandemlift.core.findings import KINDS
     from tandemlift.flight.channels import GROUPS
-    from tandemlift.flight.metric_descriptions import METRIC_GROUPS
     from tandemlift.missions.loading import built_in
 
     for name, command in main.cli.commands.items():

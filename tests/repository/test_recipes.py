@@ -31,7 +31,7 @@ KEY_HAS_ITS_EFFECT = """
 import numpy as np
 import tandemlift as tl
 from tandemlift.missions.reference import explained
-from tandemlift.missions.json_schema import mission_schema
+from tandemlift.missions.reference import mission_schema
 from tandemlift.missions.reference import template_text
 
 name, meaning = "compliance.max_force", "largest push that moves the reference"
@@ -197,7 +197,7 @@ METRIC: Edits = {
             '        "speed_max_m_s": max(early.fastest, late.fastest),\n        "push_triggers_after_10s"',
         ),
     ],
-    "flight/metric_descriptions.py": [
+    "analysis/studies/metric_descriptions.py": [
         (
             '            "position_rmse_m": Metric(',
             '            "speed_max_m_s": Metric("m/s", "largest speed"),\n            "position_rmse_m": Metric(',

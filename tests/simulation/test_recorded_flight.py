@@ -8,9 +8,11 @@ import tandemlift as tl
 from tandemlift.apps.cli.main import cli
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.apps.live.session.saving import save_in_process
+from tandemlift.core.files import FLIGHT_FILE
 from tandemlift.core.vector import Vec3
+from tandemlift.missions.recording import HAND_FILE, MISSION_FILE
 from tandemlift.parts.person.virtual_hand import HAND_RELEASED
-from tandemlift.simulation.recorded_flight import FLIGHT, HAND, MISSION, RecordedFlight
+from tandemlift.simulation.recorded_flight import RecordedFlight
 
 GUIDED = {
     "pilot.guidance": "interactive",
@@ -52,8 +54,8 @@ def pulled_about(flight, seconds, seed=0):
 
 
 def assert_flies_again(folder):
-    saved = tl.Flight.load(folder / FLIGHT)
-    again = tl.fly(tl.load_mission(folder / MISSION))
+    saved = tl.Flight.load(folder / FLIGHT_FILE)
+    again = tl.fly(tl.load_mission(folder / MISSION_FILE))
     assert list(saved.channels) == list(again.channels)
     for channel in saved.channels:
         np.testing.assert_array_equal(saved[channel], again[channel], channel)
@@ -94,7 +96,7 @@ def test_it_is_saved_while_it_goes_on_and_goes_on_as_if_it_had_not_been(tmp_path
     flight.snapshot().save(tmp_path / "late")
     other.snapshot().save(tmp_path / "other")
     assert_flies_again(tmp_path / "early")
-    late, same = (tl.Flight.load(tmp_path / name / FLIGHT) for name in ("late", "other"))
+    late, same = (tl.Flight.load(tmp_path / name / FLIGHT_FILE) for name in ("late", "other"))
     np.testing.assert_array_equal(late["position"], same["position"])
 
 
@@ -137,21 +139,21 @@ def test_its_files_may_be_moved_and_what_is_flown_again_names_no_folder_of_the_m
     snapshot.save(tmp_path / "here")
     (tmp_path / "here").rename(tmp_path / "there")
     (tmp_path / "here").mkdir()
-    mission = str(tmp_path / "there" / MISSION)
-    assert sorted(p.name for p in (tmp_path / "there").iterdir()) == sorted([MISSION, HAND, FLIGHT])
-    assert tl.load_mission(mission).person.recording == str(tmp_path / "there" / HAND)
+    mission = str(tmp_path / "there" / MISSION_FILE)
+    assert sorted(p.name for p in (tmp_path / "there").iterdir()) == sorted([MISSION_FILE, HAND_FILE, FLIGHT_FILE])
+    assert tl.load_mission(mission).person.recording == str(tmp_path / "there" / HAND_FILE)
     assert CliRunner().invoke(cli, ["run", mission, "--no-figures", "--out", str(tmp_path / "here")]).exit_code == 0
     for folder in ("here", "there"):
         for file in (tmp_path / folder).iterdir():
             assert str(tmp_path).encode() not in file.read_bytes(), file
-        assert tl.Flight.load(tmp_path / folder / FLIGHT).mission["person"]["recording"] == HAND
+        assert tl.Flight.load(tmp_path / folder / FLIGHT_FILE).mission["person"]["recording"] == HAND_FILE
     again = tl.load_mission(tmp_path / "here" / "mission.toml")
-    assert again.person.recording == str(tmp_path / "here" / HAND)
+    assert again.person.recording == str(tmp_path / "here" / HAND_FILE)
 
 
 def test_saved_aside_it_is_the_same_flight(snapshot, tmp_path):
     save_in_process(snapshot, tmp_path / "aside")
-    assert sorted(p.name for p in (tmp_path / "aside").iterdir()) == sorted([MISSION, HAND, FLIGHT])
+    assert sorted(p.name for p in (tmp_path / "aside").iterdir()) == sorted([MISSION_FILE, HAND_FILE, FLIGHT_FILE])
     assert_flies_again(tmp_path / "aside")
     before = {file: file.read_bytes() for file in (tmp_path / "aside").iterdir()}
     with pytest.raises(tl.InputError, match="aside: the name is taken: choose another"):

@@ -12,7 +12,7 @@ from tandemlift.core.faults import ALARM_TEXTS
 from tandemlift.core.phases import PHASE_NAMES
 from tandemlift.core.vector import ZERO, Absent
 from tandemlift.missions.key_descriptions import sections
-from tandemlift.parts.estimation.disturbance_observer import NONE
+from tandemlift.parts.guidance.disturbance_observer import NONE
 from tandemlift.parts.guidance.guidance import PilotInput, checked_input, guide
 from tandemlift.parts.guidance.requests import NO_REQUEST, UNKNOWN_STATUS
 from tandemlift.simulation.preparation.assemble import assemble

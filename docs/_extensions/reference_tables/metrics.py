@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from reference_tables.markdown import table
-from tandemlift.flight.metric_descriptions import METRIC_GROUPS, Metric, MetricGroup
+from tandemlift.analysis.studies.metric_descriptions import METRIC_GROUPS, Metric, MetricGroup
 
 
 def metric_tables() -> str:

@@ -17,15 +17,13 @@ from tandemlift.codegen.c.statements import Statements
 from tandemlift.codegen.c.text import FunctionHead, function
 from tandemlift.codegen.c_pilot import write_limits, write_solver
 from tandemlift.codegen.number_facts import described
+from tandemlift.compiler.tracer import Symbol
 from tandemlift.core.types import leaves, rebuilt
 from tandemlift.core.vector import ZERO
-from tandemlift.simulation.loop import external_inputs
-from tandemlift.simulation.loop.external_inputs import ROWS, draw_count
+from tandemlift.simulation import graphs
+from tandemlift.simulation.graphs import COMMAND_LINE, ROWS, TracedStep, draw_count, templates_from
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.preparation.memory import COUNTS
-from tandemlift.simulation.preparation.step_end import COMMAND_LINE
-from tandemlift.simulation.preparation.templates import templates_from
-from tandemlift.simulation.preparation.traced_step import Symbols, TracedStep
+from tandemlift.simulation.preparation import COUNTS
 
 STEP = """/* One step of a flight from time t [s] by dt [s]: its state after it, and the sample at its start
  * (tandemlift.simulation.preparation.traced_step). */
@@ -150,7 +148,7 @@ class FlightFile:
         x, like = self.traced, self.templates.moved
         moved = body.variable(x.input_of("moved", like), "moved")
 
-        def move(numbers: Symbols) -> None:
+        def move(numbers: list[Symbol]) -> None:
             value: Any = rebuilt(iter(numbers), like)
             body.compute([s.node for s in numbers])
             body.line(f"{moved} = {body.value(value)};")
@@ -176,23 +174,23 @@ class FlightFile:
 
         row, hand = (ROWS.pushes, "*row"), (self.plan.given.hand.start, "flight->hands[j]")
         model, dt = (self.plan.model, "*model"), (0.0, f"{self.file.prefix.upper()}FLIGHT_STEP")
-        add(external_inputs.push_is_active, row=row, opens=(0.0, "opens"), closes=(0.0, "closes"))
-        add(external_inputs.with_push, hand=hand, row=row, when=(0.0, "when"))
+        add(graphs.push_is_active, row=row, opens=(0.0, "opens"), closes=(0.0, "closes"))
+        add(graphs.with_push, hand=hand, row=row, when=(0.0, "when"))
         if "gusts" in self.has:
             row = ROWS.gusts, "flight->inputs.gusts[i]"
-            add(external_inputs.with_gust, sum=(ZERO, "sum"), row=row, t=(0.0, "t"))
+            add(graphs.with_gust, sum=(ZERO, "sum"), row=row, t=(0.0, "t"))
         if "floor" in self.has:
-            add(external_inputs.floor_is_near, model=model, dt=dt)
+            add(graphs.floor_is_near, model=model, dt=dt)
         if "walls" in self.has:
-            add(external_inputs.walls_are_due, model=model, dt=dt)
-            add(external_inputs.nearest_walls, model=model, row=(ROWS.walls, "flight->inputs.walls[i]"))
+            add(graphs.walls_are_due, model=model, dt=dt)
+            add(graphs.nearest_walls, model=model, row=(ROWS.walls, "flight->inputs.walls[i]"))
         return words | (self._draws() if "draws" in self.has else {})
 
     def _draws(self) -> dict[str, str]:
         """The call that draws random numbers: in doubles, whose bits its law uses."""
         unit = self.file.unit.in_double("drawn_")
         given = {"number": (0, "k"), "draw": (0, "i"), "key0": (0.0, "keys[0]"), "key1": (0.0, "keys[1]")}
-        law, call = write_call(unit, external_inputs.draw_normals, given)
+        law, call = write_call(unit, graphs.draw_normals, given)
         self.file.unit.take(unit)
         draws = str(draw_count(self.templates.given.noise))
         return {"DRAW_NORMALS": call, "DRAWS": draws, "NORMALS": unit.type_of(law.result)}

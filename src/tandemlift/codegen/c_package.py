@@ -16,16 +16,14 @@ from tandemlift.codegen.c_flight import FlightFile
 from tandemlift.codegen.c_pilot import PilotFile
 from tandemlift.codegen.number_facts import facts_of
 from tandemlift.codegen.prepare import PrepareFile
-from tandemlift.core.file_set import write_files
-from tandemlift.core.files import check_own
+from tandemlift.core.files import check_own, write_files
 from tandemlift.core.types import Array, leaves
 from tandemlift.missions import Mission, tables_of
-from tandemlift.simulation.caller_values import portable_mission
 from tandemlift.simulation.fly import fly
+from tandemlift.simulation.graphs import portable_mission, trace_assembly, with_values
 from tandemlift.simulation.pilot_api import INPUT, Pilot, pilot_at_start
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import FlightMemory
-from tandemlift.simulation.preparation.traced_assembly import trace_assembly, with_values
 
 VECTORS = 40  # stored samples of a pilot
 ROWS = 12  # stored samples of a flight

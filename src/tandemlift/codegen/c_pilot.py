@@ -16,9 +16,8 @@ from tandemlift.codegen.c.types import leaf_paths
 from tandemlift.codegen.number_facts import described
 from tandemlift.core.types import leaves, rebuilt
 from tandemlift.core.vector import each
-from tandemlift.simulation.pilot_api import INPUT
-from tandemlift.simulation.preparation.limit_solver import LimitProblem, TracedSolver
-from tandemlift.simulation.preparation.pilot_sampling import PilotData, PilotDataState, PilotSampler
+from tandemlift.simulation.graphs import LimitProblem, PilotDataState, PilotSampler, TracedSolver
+from tandemlift.simulation.pilot_api import INPUT, PilotData
 
 VECTORS = 6  # that are measured: position, velocity, attitude, rates, force, moment
 SAMPLE = "/* A sample of the pilot (tandemlift.simulation.preparation.pilot_sampling). */\n"

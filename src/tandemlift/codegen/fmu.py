@@ -18,9 +18,9 @@ from tandemlift.codegen.fmu_binaries import HOST, chosen_platforms, libraries
 from tandemlift.codegen.fmu_description import build_description, model_description, sources
 from tandemlift.codegen.fmu_sources import FmuPart, flight_part, pilot_part
 from tandemlift.core.errors import InputError
-from tandemlift.core.file_set import write_files
+from tandemlift.core.files import write_files
 from tandemlift.missions import Mission
-from tandemlift.simulation.caller_values import portable_mission
+from tandemlift.simulation.graphs import portable_mission
 
 VERSIONS = (2, 3)
 FIRST = (1980, 1, 1, 0, 0, 0)  # the time of all files in an FMU: the first that ZIP has

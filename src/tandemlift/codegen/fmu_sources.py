@@ -13,13 +13,12 @@ from tandemlift.codegen.c_package import source_file, with_hash
 from tandemlift.codegen.c_pilot import PilotFile
 from tandemlift.codegen.number_facts import facts_of
 from tandemlift.codegen.prepare import PrepareFile, prepared_numbers
-from tandemlift.codegen.vehicle_step import VehicleStep, is_of_vehicle
 from tandemlift.compiler.tracer import symbols
 from tandemlift.core.types import flat, leaves
 from tandemlift.missions import Mission
+from tandemlift.simulation.graphs import TracedAssembly, VehicleStep, is_of_vehicle, trace_assembly, with_values
 from tandemlift.simulation.pilot_api import INPUT, pilot_at_start
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.preparation.traced_assembly import TracedAssembly, trace_assembly, with_values
 from tandemlift.simulation.results import channel_columns
 
 PARTS = {

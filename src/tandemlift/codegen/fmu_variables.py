@@ -13,11 +13,10 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from tandemlift.codegen.number_facts import CALLER, FIELDS, PUSH, REQUESTS, STATE, STATUS
-from tandemlift.flight.channels import Channel, channel_of
-from tandemlift.flight.data_frames import column_names
-from tandemlift.simulation.caller_values import held_inputs
-from tandemlift.simulation.preparation.traced_assembly import TracedAssembly
+from tandemlift.flight.channels import Channel, channel_of, column_names
+from tandemlift.simulation.graphs import TracedAssembly
 from tandemlift.simulation.results import channel_columns
+from tandemlift.simulation.simulation import held_inputs
 
 ENTRY = re.compile(r"(.+?)((?:\.\d+)+)")  # a key of a number in a list
 

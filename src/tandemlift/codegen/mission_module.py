@@ -14,25 +14,27 @@ import numpy as np
 from tandemlift.codegen.c_package import write_c
 from tandemlift.codegen.fmu import VERSIONS, write_fmus
 from tandemlift.codegen.fmu_binaries import HOST
-from tandemlift.codegen.module_text import ValuesFunction, write_flight_loop, write_ramp, write_values_function
 from tandemlift.codegen.number_facts import facts_of
 from tandemlift.codegen.prepare import write_prepare
 from tandemlift.codegen.wasm_linker import linked
 from tandemlift.compiler.machine_code import store
-from tandemlift.compiler.machine_code.code import Written
 from tandemlift.compiler.machine_code.machine import MACHINES, Machine, machine_named, object_code
 from tandemlift.core.errors import InputError
-from tandemlift.core.file_set import write_files
-from tandemlift.core.files import __version__
+from tandemlift.core.files import __version__, write_files
 from tandemlift.core.types import flat, leaves
 from tandemlift.flight.channels import channel_of
 from tandemlift.missions import Mission, MissionLike, mission_of, tables_of
-from tandemlift.simulation.caller_values import portable_mission
-from tandemlift.simulation.parameter_changes import hand_place
+from tandemlift.simulation.graphs import (
+    TracedAssembly,
+    ValuesFunction,
+    assemble,
+    portable_mission,
+    trace_assembly,
+    write_flight_module,
+)
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.preparation.assemble import assemble
-from tandemlift.simulation.preparation.memory import POINTERS, WORDS
-from tandemlift.simulation.preparation.traced_assembly import TracedAssembly, trace_assembly
+from tandemlift.simulation.preparation import POINTERS, WORDS
+from tandemlift.simulation.recorded_flight import hand_place
 from tandemlift.simulation.results import channel_columns
 
 FUNCTIONS = ("prepare", "fly", "ramp")
@@ -62,14 +64,15 @@ def module_of(mission: Mission, target: str, functions: Functions | None = None)
     traced, more = trace_assembly(plan.mission), functions(plan) if functions else ()
     facts = _identity(traced), _sources(more), [(f.name, f.likes) for f in more]
     key = store.key_of((plan.model, plan.given), "module", machine, facts)
-    entry = store.read(key)
-    if entry is None:
-        written = _written(plan, traced, machine, more)
-        code = object_code(written.text, machine)
+
+    def made() -> store.StoredCode:
+        text, about = _written(plan, traced, machine, more)
+        code = object_code(text, machine)
         if target == "wasm32":
             code = linked(code, [*FUNCTIONS, *[f.name for f in more]])
-        entry = store.StoredCode(json.loads(json.dumps(written.about)), code)
-        store.write(key, entry)
+        return store.StoredCode(json.loads(json.dumps(about)), code)
+
+    entry = store.kept(key, made)
     manifest = {
         "format": 1,
         "version": __version__,
@@ -99,10 +102,7 @@ def kept(mission: Mission, what: str, make: Callable[[], bytes] = bytes) -> byte
     numbers = [np.array(flat(built.model)), *built.tables, built.delays, built.seeds]
     facts = tables_of(mission), hashlib.sha256(b"".join(n.tobytes() for n in numbers)).hexdigest()
     key = store.key_of(built.model, what, facts, files=store.PACKAGE.rglob("*.py"))
-    entry = store.read(key) or store.StoredCode({}, make())
-    if entry.code:
-        store.write(key, entry)
-    return entry.code
+    return store.kept(key, lambda: store.StoredCode({}, make())).code
 
 
 def _identity(traced: TracedAssembly) -> str:
@@ -121,13 +121,11 @@ def _sources(functions: Sequence[ValuesFunction]) -> str:
 
 def _written(
     plan: FlightPlan, traced: TracedAssembly, machine: Machine, functions: Sequence[ValuesFunction]
-) -> Written:
+) -> tuple[str, dict[str, Any]]:
     """The text of a module, and what the manifest needs of it: see `manifest_of`."""
-    loop = write_flight_loop(plan.loop_code, machine.draw_lanes, machine.largest)
-    write_ramp(loop.module)
-    sizes = {f.name: (f.width, write_values_function(loop.module, f)) for f in functions}
+    loop, sizes = write_flight_module(plan.loop_code, machine.draw_lanes, machine.largest, functions)
     about = {"prepared": write_prepare(loop.module, traced), "work": loop.scratch.size, "functions": sizes}
-    return Written(loop.module.text, about)
+    return loop.module.text, about
 
 
 TARGETS = {

@@ -15,7 +15,7 @@ from tandemlift.codegen.c.types import is_own
 from tandemlift.core.keys import description_of
 from tandemlift.flight.channels import CHANNELS, Channel
 from tandemlift.missions import Mission
-from tandemlift.missions.json_schema import schema_of
+from tandemlift.missions.reference import schema_of
 
 STATE = {
     "position": Channel("m", "world", "position of the centre of mass"),

@@ -19,10 +19,7 @@ from tandemlift.codegen.c.types import leaf_paths
 from tandemlift.codegen.number_facts import key_comment
 from tandemlift.compiler.tracer import LEAVES, Function, Module, Place, ScratchLayout, Symbol, symbols
 from tandemlift.core.types import rebuilt
-from tandemlift.simulation.loop.external_inputs import ROWS
-from tandemlift.simulation.preparation.assemble import AssembledFlight
-from tandemlift.simulation.preparation.precompute import ScratchValues
-from tandemlift.simulation.preparation.traced_assembly import TracedAssembly
+from tandemlift.simulation.graphs import ROWS, AssembledFlight, ScratchValues, TracedAssembly
 
 PIECE = 600  # operations of a function
 ARGUMENTS = "ptr noalias %numbers, ptr noalias %work"

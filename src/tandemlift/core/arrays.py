@@ -18,7 +18,7 @@ import numpy as np
 from tandemlift.core.algebra import absolute, greatest, sqrt, where
 from tandemlift.core.types import is_symbol
 
-FLAT = 1e-6  # of the extent of points: those as near to a plane as this lie in it
+FLATNESS = 1e-6  # of the extent of points: those as near to a plane as this lie in it
 SLIVER = 1e-5  # of the square of the extent: a smaller triangle determines no plane
 SWEEPS = 6  # of Jacobi's method, which converges quadratically: enough for 6 × 6 to the last digits
 
@@ -148,10 +148,10 @@ def convex_faces(points: Any) -> tuple[Any, Any, list[tuple[int, ...]]]:
     normals, a = np.vstack([normals, -normals]), np.vstack([a, a])
     offsets = np.sum(normals * a, axis=1)
     above, planes = normals @ points.T - offsets[:, None], dict[frozenset[int], int]()
-    for i in np.flatnonzero(above.max(axis=1, initial=-np.inf) <= FLAT * extent).tolist():
-        planes.setdefault(frozenset(np.flatnonzero(above[i] >= -FLAT * extent).tolist()), i)
+    for i in np.flatnonzero(above.max(axis=1, initial=-np.inf) <= FLATNESS * extent).tolist():
+        planes.setdefault(frozenset(np.flatnonzero(above[i] >= -FLATNESS * extent).tolist()), i)
     outer = [i for on, i in planes.items() if not any(on < other for other in planes)]
-    faces = [_around(points, np.flatnonzero(above[i] >= -FLAT * extent).tolist(), normals[i]) for i in outer]
+    faces = [_around(points, np.flatnonzero(above[i] >= -FLATNESS * extent).tolist(), normals[i]) for i in outer]
     return normals[outer], offsets[outer], faces
 
 

@@ -86,7 +86,7 @@ def install_command(name: str) -> str:
 
 OK, CLOSE, FAILS, REFUSED = "ok", "close", "fails", "refused"
 SETTINGS = "settings"  # name of the checks whose result is a sentence about keys that do not fit
-NEAR = 0.1  # of a limit: less than this share of it left is close
+CLOSE_SHARE = 0.1  # of a limit: less than this share of it left is close
 
 
 class CheckResult(NamedTuple):
@@ -120,7 +120,7 @@ class CheckResult(NamedTuple):
 
 
 def judged(
-    check: str, value: float, limit: float, unit: str, text: str, *, subject: str = "", near: float = NEAR
+    check: str, value: float, limit: float, unit: str, text: str, *, subject: str = "", near: float = CLOSE_SHARE
 ) -> CheckResult:
     """The result of a check whose value must be at most its limit.
 

@@ -1,10 +1,11 @@
-"""The package's version and files, atomic writing of files, and reading of untrusted TOML.
+"""The package's version and files, atomic writing of files and of sets of them, and reading of untrusted TOML.
 
 The memory for reading TOML grows with the square of the number of a key's parts, so that number is bounded.
 """
 
 from __future__ import annotations
 
+import errno
 import os
 import re
 import shutil
@@ -60,6 +61,38 @@ def write_file(path: Path, content: str | bytes) -> None:
     """Write a whole file atomically; a text in UTF-8."""
     with atomic_write(path) as partial:
         partial.write_bytes(content.encode() if isinstance(content, str) else content)
+
+
+@contextmanager
+def write_together(folder: Path) -> Iterator[Path]:
+    """A temporary folder to write to; its files are moved to `folder` at the end: all, or none if writing fails."""
+    with aside(folder, folder / "files") as partial:
+        partial.mkdir(parents=True)
+        yield partial
+        _move({path: folder / path.relative_to(partial) for path in partial.rglob("*") if path.is_file()})
+
+
+def write_files(folder: Path, contents: Mapping[str, str | bytes]) -> list[Path]:
+    """Write whole files, by their names, into a folder: all, or none if writing fails; their paths."""
+    with write_together(folder) as partial:
+        for name, content in contents.items():
+            write_file(partial / name, content)
+    return [folder / name for name in contents]
+
+
+def _move(files: Mapping[Path, Path]) -> None:
+    """Move all files to their places, or none if a folder is in one; an interrupt is raised after the last."""
+    for path in files.values():
+        if path.is_dir():
+            raise IsADirectoryError(errno.EISDIR, "it is a folder", str(path))
+    try:
+        for partial, path in files.items():
+            if partial.exists():  # not moved yet
+                path.parent.mkdir(parents=True, exist_ok=True)
+                partial.replace(path)
+    except KeyboardInterrupt:
+        _move(files)
+        raise
 
 
 def check_own(path: Path, mark: str) -> None:

@@ -16,7 +16,7 @@ __all__ = [
     *("Share", "Size", "Table", "Tilt", "Triple", "description_of", "key"),
 ]
 
-SMALLEST = 1e-300  # of a divisor: its inverse is finite
+LEAST_DIVISOR = 1e-300  # of a divisor: its inverse is finite
 
 
 def must(kind: str, words: str) -> PydanticCustomError:
@@ -26,8 +26,8 @@ def must(kind: str, words: str) -> PydanticCustomError:
 
 def divisor(value: float) -> float:
     """A number whose inverse is finite."""
-    if value < SMALLEST:
-        raise must("size", f"be at least {SMALLEST}")
+    if value < LEAST_DIVISOR:
+        raise must("size", f"be at least {LEAST_DIVISOR}")
     return value
 
 

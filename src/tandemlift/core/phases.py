@@ -62,8 +62,8 @@ REASON_NUMBERS = ", ".join(f"{number} {reason.text}" for number, reason in enume
 """The numbers with their texts, as the meaning of the channel `limited_reason`."""
 
 
-FAR = 1000.0  # m
-HARD = 2.0  # m/s: an impact that stops the vehicle from this speed is a crash, unless `crash.impulse` is set
+LARGEST_DISTANCE = 1000.0  # m
+CRASH_SPEED = 2.0  # m/s: an impact that stops the vehicle from this speed is a crash, unless `crash.impulse` is set
 INTERRUPTED = "interrupted"
 FLIES, DIVERGED, TURNED_OVER, STRUCK, LEFT_FENCE = map(float, range(5))  # values of `FlightState.ended`
 
@@ -105,7 +105,10 @@ OUTCOMES = (
 )
 ENDINGS = (
     EndingKind(
-        DIVERGED, "diverged", "distance from the origin [m]", f"it exceeds {FAR:g} m, or a number is not finite"
+        DIVERGED,
+        "diverged",
+        "distance from the origin [m]",
+        f"it exceeds {LARGEST_DISTANCE:g} m, or a number is not finite",
     ),
     EndingKind(TURNED_OVER, "crashed", "tilt [deg]", "body z is more than `crash.tilt` from world z"),
     EndingKind(

@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import importlib
 import inspect
+import json
 import linecache
 import os
 import re
@@ -17,7 +18,7 @@ import sys
 import traceback
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from functools import cache
+from functools import cache, partial
 from importlib.util import decode_source
 from pathlib import Path
 from types import FunctionType, ModuleType
@@ -53,17 +54,13 @@ class Plug(NamedTuple):
     table: Any = None
 
 
-def _unchanged(made: Plug) -> Plug:
-    return made
-
-
 class Registry(dict[str, Any]):
     """The parts of a kind by name, and the function that registered each."""
 
     def __init__(self, kind: str) -> None:
         super().__init__()
         self.kind, self.made_by = kind, dict[str, Any]()
-        self._take: Callable[[Plug], Any] = _unchanged
+        self._take: Callable[[Plug], Any] = lambda made: made
 
     def open(self, take: Callable[[Plug], Any]) -> None:
         """Make parts of what is registered, by the module of the kind, which may be imported after a plugin."""
@@ -117,8 +114,7 @@ def plug(kind: str, name: str, table: Any = None) -> Callable[[F], F]:
 
     def keep(part: F) -> F:
         summary = (inspect.getdoc(part) or "").partition("\n")[0]
-        made = Plug(kind, name, summary, part, table)
-        PLUGS[kind].take(made)
+        PLUGS[kind].take(Plug(kind, name, summary, part, table))
         return part
 
     return keep
@@ -198,10 +194,19 @@ def load_plugin(path: str | os.PathLike[str]) -> Plugin:
         InputError: the file is missing, can be changed by others, or fails, or registers nothing; or another file has
             registered such a name. Nothing of it is then registered.
     """
-    loaded = run_text(file_text(path), Path(path).resolve())
+    loaded = run_file(path)
     if not loaded.entries:
         raise InputError(f"plugin {Path(path).name} registers nothing; register with @plug(KIND, NAME)")
     return loaded
+
+
+def run_file(path: str | os.PathLike[str], what: str = "plugin") -> Plugin:
+    """Run a Python file, whether it registers parts or not; `what` it is, in messages.
+
+    Raises:
+        InputError: as of `file_text` and `run_text`.
+    """
+    return run_text(file_text(path, what), Path(path).resolve(), what)
 
 
 def file_text(path: str | os.PathLike[str], what: str = "plugin") -> str:
@@ -340,7 +345,7 @@ def load_installed(name: str) -> Plugin:
         raise InputError(f"plugin {name!r}: no installed package has it; there is {known}. A file's name ends in .py.")
     try:
         with _all_or_nothing(points[name].module):
-            run = lambda: importlib.import_module(points[name].module)  # noqa: E731
+            run = partial(importlib.import_module, points[name].module)
             loaded = _brought(run, lambda module: _sources(name, module))
     except (Exception, SystemExit) as error:
         raise InputError(f"plugin {name!r}: its package fails: {type(error).__name__}: {error}") from error
@@ -418,6 +423,24 @@ def plugin_of(kind: str, name: object) -> Plugin | None:
     said = PluginText(Path(file).name, hashlib.sha256(text.encode()).hexdigest(), text)
     made = _loaded[said[:2]] = Plugin(said, None, tuple(own))
     return made
+
+
+def plugins_in(text: str) -> list[Plugin]:
+    """The plugins that brought the parts that a JSON text names."""
+    named = [(kind, name) for kind in KINDS for name in sorted(PLUGS[kind]) if json.dumps(name) in text]
+    return [plugin for kind, name in named if (plugin := plugin_of(kind, name))]
+
+
+def load_sent(said: PluginText) -> None:
+    """Load a plugin that came with a study: run the text of a file, or import an installed package.
+
+    Raises:
+        InputError: it fails, or the package is another one here.
+    """
+    if said.name.endswith(".py"):
+        run_text(said.text, Path(STUDY, said.digest[:16], Path(said.name).name))
+    else:
+        listed(said._asdict())
 
 
 def listed(said: Any) -> Plugin:

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple, get_args
 
-from tandemlift.core.faults import ALARM_TEXTS, CHECKS
+from tandemlift.core.faults import ALARM_TEXTS as ALARM_TEXTS
+from tandemlift.core.faults import CHECKS
 
 Request = Literal["lift", "land", "push"]
 REQUESTS: tuple[Request, ...] = get_args(Request)
@@ -120,9 +121,9 @@ def refusals_for(key: str) -> Refusals:
     return Refusals(*[refusal_of(request, NUMBER_OF[key], 0.0, 0.0) for request in REQUESTS])
 
 
-def sentences_for(request: Request) -> list[str]:
-    """The refusal of a request for each reason, by its number, with placeholders in braces."""
-    return ["", *[str(_refusal(request, reason)) for reason in REASONS]]
+def sentences() -> dict[str, list[str]]:
+    """The refusals of each request for each reason, by its number, with placeholders in braces."""
+    return {request: ["", *[str(_refusal(request, reason)) for reason in REASONS]] for request in REQUESTS}
 
 
 def refusal_of(request: Request, number: float, value: float, limit: float) -> PilotRefusal | None:

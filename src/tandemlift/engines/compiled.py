@@ -144,17 +144,17 @@ def readings_at_rest(
 
 @cached
 def start_shape(
-    plant: CompiledPlant,
-    s: State,
+    body: CompiledPlant,
+    state: State,
     grip: Quarters[FootGrip] | Absent,
     near: NearWalls | Absent,
     thrusts: PerRotor,
     hand: PushSamples[Push],
 ) -> Deformation | Absent:
-    """The deformation at rest in state `s` under rotor thrusts [N]; `Absent` of a rigid body."""
-    if isinstance(plant.structure, Absent):
+    """The deformation at rest in a state under rotor thrusts [N]; `Absent` of a rigid body."""
+    if isinstance(body.structure, Absent):
         return Absent()
-    return shape_at_rest(BodySurroundings(plant, Absent(), grip, near), s, thrusts, hand)
+    return shape_at_rest(BodySurroundings(body, Absent(), grip, near), state, thrusts, hand)
 
 
 @cached
@@ -194,12 +194,8 @@ def plant_from(scene: Scene, vehicle: Vehicle) -> CompiledPlant:
     return start_plant(scene, vehicle, floor_from(scene, vehicle), walls_from(scene, vehicle))
 
 
-def start_state(scene: Scene) -> State:
-    """The state of a mission at t = 0."""
-    return _state(scene.initial)
-
-
 @cached
-def _state(initial: InitialTable) -> State:
+def start_state(initial: InitialTable) -> State:
+    """The state at t = 0."""
     attitude = quaternion_from_euler(vec3(initial.euler))
     return State(vec3(initial.position), vec3(initial.velocity), attitude, vec3(initial.rates))

@@ -11,7 +11,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tandemlift.compiler.machine_code.series import Series
 from tandemlift.core.arrays import inverse
+from tandemlift.core.caching import LastUsed
 from tandemlift.core.law import law
 from tandemlift.core.types import Array, Number, PerQuadrotor, PerRotor
 from tandemlift.core.vector import (
@@ -44,6 +46,7 @@ from tandemlift.parts.rotors.ground_effect import GroundEffect, ground_effect_fr
 from tandemlift.parts.rotors.rotor_lag import Lag, lag, lag_step
 
 NO_PUSH = CentralPush(ZERO)
+_models = LastUsed["DrivenModels"](4)  # a search forms thousands of predictions, and each log of a set a predictor
 AT_REST = State(ZERO, ZERO, Quat(1.0, 0.0, 0.0, 0.0), ZERO)
 
 
@@ -111,6 +114,23 @@ class DrivenRotor(NamedTuple):
     speed: Number
     up: Number
     down: Number
+
+
+class StepNumbers(NamedTuple):
+    """The parameters of a step: the vehicle, the point that the motion measurement follows, the step's length [s]."""
+
+    vehicle: VehicleNumbers
+    point: Vec3
+    step: Number
+
+
+class DrivenModels(NamedTuple):
+    """Rotors and body as machine code, without and with tangents."""
+
+    rotors: Series
+    rotor_tangents: Series
+    body: Series
+    body_tangents: Series
 
 
 def vehicle_numbers(table: VehicleTable) -> VehicleNumbers:
@@ -216,6 +236,25 @@ def rotor_step(step: Number, r: DrivenRotor, command: Number) -> tuple[DrivenRot
 
 def _lag_over(step: Number, time_constant: Number) -> Lag:
     return lag([time_constant], step)
+
+
+def driven_models(table: VehicleTable, floor: float | None, air: WindTable) -> DrivenModels:
+    """The machine code of `rotor_step` and `driven_step` for the geometry of a table; made once in a process.
+
+    Parameters of a body's step are `StepNumbers`; `floor` and `air` as for `driven_body`.
+    """
+
+    def body(p: StepNumbers) -> DrivenBody:
+        return driven_body(table, floor, air, p.vehicle, p.point, p.step)
+
+    def compiled() -> DrivenModels:
+        count = 4 * len(table.quadrotors)
+        none = DrivenInputs(each(count)(*(0.0,) * count), ZERO, ZERO)
+        of_body = body, driven_step, StepNumbers(vehicle_numbers(table), ZERO, 0.0), AT_REST, none
+        of_rotor = (lambda step: step), rotor_step, 0.0, DrivenRotor(0.0, 0.0, 0.0), 0.0
+        return DrivenModels(*[Series(*own, differentiated=d) for own in (of_rotor, of_body) for d in (False, True)])
+
+    return _models.of((table.model_dump_json(), floor, air.model_dump_json()), compiled)
 
 
 def whole_vehicle(table: VehicleTable, n: VehicleNumbers) -> dict[str, tuple[Array, str]]:

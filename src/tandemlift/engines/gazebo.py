@@ -14,7 +14,8 @@ import os
 import socket
 import time
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 from functools import partial
 from typing import Any, Protocol
 from xml.etree import ElementTree
@@ -25,7 +26,14 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array, flat
 from tandemlift.core.vector import Absent, Quat
 from tandemlift.engines.compiled import start_state
-from tandemlift.engines.gazebo_server import GazeboServer, free_port
+from tandemlift.engines.gazebo_server import (
+    GazeboServer,
+    free_port,
+    gazebo_window,
+    has_display,
+    root,
+    shell_command_for_user,
+)
 from tandemlift.engines.gazebo_wire import PluginAnswer, Wire
 from tandemlift.engines.models import sdf
 from tandemlift.engines.models.scene import Scene
@@ -33,12 +41,20 @@ from tandemlift.engines.touches import KINDS, SURFACES, ContactLog
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
+__all__ = [
+    "GazeboBody",
+    "has_display",
+    "root",
+    "running_gazebo",
+    "shell_command_for_user",
+]
+
 NONE = Absent()
-UNSOUND = 1e8  # N, beyond which the flight has diverged
-RESTING = 0.1  # s, between messages that keep the session alive while no step is taken
-STARTING, STEPPING = 60.0, 10.0  # s, after which a server that does not answer is given up
+DIVERGED_FORCE = 1e8  # N, beyond which the flight has diverged
+KEEP_ALIVE_TIME = 0.1  # s, between messages that keep the session alive while no step is taken
+START_TIMEOUT, STEP_TIMEOUT = 60.0, 10.0  # s, after which a server that does not answer is given up
 CHECKS: dict[int, Callable[[], None]] = {}  # by port: of servers that this process has started, for a flight to join
-CLOSE = 1e-9  # relative tolerance of the world's step and mass
+TOLERANCE = 1e-9  # relative tolerance of the world's step and mass
 
 PORT, REAL_TIME = "TANDEMLIFT_GAZEBO_PORT", "TANDEMLIFT_GAZEBO_REAL_TIME"
 
@@ -68,7 +84,7 @@ class PluginLink(Protocol):
 def _connect(scene: Scene, vehicle: Vehicle) -> tuple[GazeboServer | None, PluginLink]:
     """Connect to the plugin over UDP, of a server started for the flight unless a port is named."""
     server, port = _find_server(scene)
-    return server, Wire(port, vehicle.count, STEPPING, server.check if server else CHECKS.get(port))
+    return server, Wire(port, vehicle.count, STEP_TIMEOUT, server.check if server else CHECKS.get(port))
 
 
 class GazeboBody:
@@ -125,9 +141,9 @@ class GazeboBody:
         """Wait for the plugin, and check that its world fits the scene."""
         try:
             if self.server:
-                self._wire.patience = STARTING
+                self._wire.patience = START_TIMEOUT
             _check_world(self._hello(), scene, vehicle)
-            self._wire.patience = STEPPING
+            self._wire.patience = STEP_TIMEOUT
         except TimeoutError as error:
             output = self.server.last_output() if self.server else ""
             self.close()
@@ -142,7 +158,7 @@ class GazeboBody:
         Raises:
             OSError: the session is over, the server has ended, or does not answer.
         """
-        if not thrusts.dot(thrusts) < UNSOUND * UNSOUND:  # also NaN, which is below nothing
+        if not thrusts.dot(thrusts) < DIVERGED_FORCE * DIVERGED_FORCE:  # also NaN, which is below nothing
             self.state.fill(np.nan)
             self.readings.fill(np.nan)
             return
@@ -181,7 +197,7 @@ class GazeboBody:
     def rest(self) -> None:
         """Keep the session alive without a step; see `registry.WaitingBody`."""
         now = time.monotonic()
-        if self._begun and now - self._rested > RESTING:
+        if self._begun and now - self._rested > KEEP_ALIVE_TIME:
             self._wire.keep_alive()
             self._rested = now
 
@@ -225,7 +241,7 @@ def world_from(scene: Scene, plugin: int | str, **more: str) -> str:
 
 def start_state_from(scene: Scene) -> Array:
     """The state (13,) that a mission starts in, of the real centre of mass."""
-    state = np.array(flat(start_state(scene)))
+    state = np.array(flat(start_state(scene.initial)))
     move_state(state, np.array(scene.plant.center_of_mass_offset))
     return state
 
@@ -248,8 +264,44 @@ def _check_world(answer: PluginAnswer, scene: Scene, vehicle: Vehicle) -> None:
     _, step, mass = answer.clock
     true_mass = vehicle.mass * scene.plant.mass_scale
     for what, given, wanted, unit in (("step", step, scene.mission.step, "s"), ("mass", mass, true_mass, "kg")):
-        if abs(given - wanted) > CLOSE * wanted:
+        if abs(given - wanted) > TOLERANCE * wanted:
             raise InputError(
                 f"engine 'gazebo': the world in Gazebo has a {what} of {given:g} {unit}, the mission {wanted:g} "
                 f"{unit}; export the mission again and start Gazebo with it"
             )
+
+
+# ---- A server for one flight of this process
+
+
+@contextmanager
+def _joined(port: int, check: Callable[[], None], *, real_time: bool) -> Iterator[None]:
+    """A context in which engine `gazebo` joins the server at a port."""
+    before = {name: os.environ.get(name) for name in (PORT, REAL_TIME)}
+    CHECKS[port] = check
+    os.environ |= {PORT: str(port), REAL_TIME: str(int(real_time))}
+    try:
+        yield
+    finally:
+        del CHECKS[port]
+        for name, value in before.items():
+            os.environ.pop(name)
+            if value is not None:
+                os.environ[name] = value
+
+
+@contextmanager
+def running_gazebo(scene: Scene, *, window: bool, real_time: bool) -> Iterator[str]:
+    """Gazebo with a mission's world while the context is open, for one flight in the engine `gazebo`; its master.
+
+    Raises:
+        InputError: there is no Gazebo, or no display for the window.
+    """
+    port = free_port(socket.SOCK_DGRAM)
+    with ExitStack() as closing:
+        server = GazeboServer(world_from(scene, port))
+        closing.callback(server.close)
+        if window:
+            closing.enter_context(gazebo_window(server.master))
+        closing.enter_context(_joined(port, server.check, real_time=real_time))
+        yield server.master

@@ -18,16 +18,14 @@ from numpy.typing import ArrayLike
 
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
-from tandemlift.engines.gazebo import NONE, STEPPING, GazeboBody, world_from
+from tandemlift.engines.gazebo import NONE, STEP_TIMEOUT, GazeboBody, world_from
 from tandemlift.engines.gazebo_server import GazeboServer
 from tandemlift.engines.gazebo_wire import PluginAnswer
 from tandemlift.engines.models.scene import Scene
-from tandemlift.engines.rospy import joined, message_type, node, ros_environment
+from tandemlift.engines.rospy import PLACES, ROOT, joined, message_type, node, ros_environment
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 Stamp = tuple[int, int]  # s, ns
-ROOT = "/tandemlift/gazebo"
-PLACES = (ROOT, *(f"{ROOT}_{k}" for k in range(2, 100)))  # of several servers of this process
 MOVED = "sensor_msgs/MultiDOFJointState"
 ENDING = 5.0  # s, in which a server may end by itself
 SILENCE = 0.05  # s, after which a command is repeated; a waiting world publishes its state every 0.1 s
@@ -44,11 +42,11 @@ def over_ros(scene: Scene, vehicle: Vehicle, floor: Any = NONE, walls: Any = NON
 def _connect(scene: Scene, vehicle: Vehicle) -> tuple[GazeboServer | None, RosWire]:
     node()
     if joined() == "world":
-        return None, RosWire(vehicle.count, STEPPING)
+        return None, RosWire(vehicle.count, STEP_TIMEOUT)
     place = next(place for place in PLACES if place not in _taken)
     _taken.add(place)
     server = GazeboServer(world_from(scene, "ros", namespace=place), ros_environment(), ENDING)
-    return server, RosWire(vehicle.count, STEPPING, server.check, place)
+    return server, RosWire(vehicle.count, STEP_TIMEOUT, server.check, place)
 
 
 def touch_names(count: int) -> list[str]:

@@ -15,7 +15,8 @@ import signal
 import socket
 import subprocess
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from types import MappingProxyType
 
@@ -25,7 +26,7 @@ ROOT = "TANDEMLIFT_GAZEBO_ROOT"
 MASTER = "GAZEBO_MASTER_URI"
 SETUP = "/usr/share/gazebo/setup.sh"
 NOTHING_MORE: Mapping[str, str] = MappingProxyType({})
-SHOWN = 12  # last lines of the server's output that are shown
+SHOWN_LINES = 12  # last lines of the server's output that are shown
 COLORS = re.compile("\x1b\\[[0-9;]*m")
 FAILING = ("Failed to load plugin libtandemlift", "the plugin rests")
 SOUND = ("ALSA lib", "AL lib")  # complaints about missing loudspeakers
@@ -116,7 +117,7 @@ class GazeboServer:
 
     def last_output(self) -> str:
         """The last lines of the server's output, ready to be appended to a message; empty without output."""
-        lines = self._lines()[-SHOWN:]
+        lines = self._lines()[-SHOWN_LINES:]
         return "; its last output:\n  " + "\n  ".join(lines) if lines else ""
 
     def close(self) -> None:
@@ -158,3 +159,36 @@ def shell_command_for_user(master: str, what: str) -> str:
     """The command line by which a user runs one of Gazebo's tools on this server."""
     inside, rights = root(), "" if os.geteuid() == 0 else "sudo "
     return f"{f'{rights}chroot {inside} ' if inside else ''}env {MASTER}={master} GAZEBO_IP=127.0.0.1 {what}"
+
+
+def has_display() -> bool:
+    """Whether there is a screen for a window."""
+    return bool(os.environ.get("DISPLAY"))
+
+
+@contextmanager
+def gazebo_window(master: str) -> Iterator[None]:
+    """Gazebo's window on a server, while the context is open."""
+    if not has_display():
+        raise InputError("Gazebo's window needs a display: DISPLAY is not set")
+    inside, allowed = root(), Path(os.environ.get("XAUTHORITY", Path.home() / ".Xauthority"))
+    with ExitStack() as closing:
+        if inside and allowed.is_file():  # the display's cookie must be inside the root
+            cookie = inside / "tmp" / f"tandemlift-{os.getpid()}.cookie"
+            shutil.copy(allowed, cookie)
+            closing.callback(cookie.unlink)
+            allowed = Path("/tmp") / cookie.name
+        show = f"export DISPLAY={os.environ['DISPLAY']} XAUTHORITY={allowed}; exec gzclient"
+        quiet = subprocess.DEVNULL
+        client = subprocess.Popen(
+            shell_command(inside, with_gazebo_environment(master, show)),
+            stdin=quiet,
+            stdout=quiet,
+            stderr=quiet,
+            start_new_session=True,
+        )
+        try:
+            yield
+        finally:
+            client.kill()
+            client.wait()

@@ -27,7 +27,7 @@ SEQUENCE = struct.Struct("<Q")
 AT_SEQUENCE, AT_KIND = 16, 6  # bytes
 DOUBLE = 8  # bytes
 STATE = 13  # numbers of a state
-LARGEST = 65536  # bytes
+LARGEST_MESSAGE = 65536  # bytes
 FIRST_RESEND, SLOWEST_RESEND = 0.02, 0.5  # s, shortest and longest wait before a message is repeated
 GONE = 1.0  # s, in which a plugin that nobody listens for in flight is given up, and a server that ends has ended
 
@@ -111,7 +111,7 @@ class Wire:
         self._step = bytearray(HEADER.size + DOUBLE * step_size(count))
         step = np.frombuffer(self._step, dtype=np.float64, offset=HEADER.size)
         self.thrusts, self.wrench, self.loads = np.split(step, [4 * count, 4 * count + 6])
-        self._received = bytearray(LARGEST)
+        self._received = bytearray(LARGEST_MESSAGE)
         self._answer_size = HEADER.size + DOUBLE * answer_size(count)
         self._numbers = np.frombuffer(self._received, dtype=np.float64, offset=HEADER.size, count=answer_size(count))
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)

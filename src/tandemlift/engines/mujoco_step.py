@@ -25,7 +25,7 @@ ARRAYS = ("qpos", "qvel", "ctrl", "applied", "on_quadrotors", "sensors")
 CONTACTS, OWN = ("count", "geoms", "places"), ("constants", "spheres", "rows", "found")
 POINTERS = ("advance", *FUNCTIONS, *STRUCTS, *ARRAYS, *CONTACTS, *OWN)
 WORDS = (*POINTERS, "apart", "steps")
-UNSOUND = 1e8  # N, beyond which the flight has diverged; MuJoCo takes a command beyond 1e10 for zero
+DIVERGED_FORCE = 1e8  # N, beyond which the flight has diverged; MuJoCo takes a command beyond 1e10 for zero
 SLACK = 0.02  # m, that a shape moves in a step at most, beside twice what it moves at its speed
 ROLLS = 5  # quadrotors from which on sets are loops
 
@@ -65,7 +65,7 @@ class _StepWriter:
         self.numbers = self._inputs("constants", 4), self._inputs("constants", 6, 4), self._inputs("constants", 9, 10)
         self.thrusts = [self._inputs("thrust", 4, 4 * i) for i in range(quadrotors)]
         square = sum(x * x for own in self.thrusts for x in own)
-        sound = f.value(square < UNSOUND * UNSOUND)
+        sound = f.value(square < DIVERGED_FORCE * DIVERGED_FORCE)
         with f.when(sound):
             self._set_loads(square)
             self._step(touching)

@@ -32,12 +32,14 @@ from types import ModuleType
 from tandemlift.core.errors import InputError
 from tandemlift.engines.gazebo_server import export_lines, free_port, root, shell_command
 
+ROOT = "/tandemlift/gazebo"  # of the topics of Gazebo's plugin
+PLACES = (ROOT, *(f"{ROOT}_{k}" for k in range(2, 100)))  # of several servers of this process
 FOLDERS = ("/usr/lib/python3/dist-packages", "/opt/ros/noetic/lib/python3/dist-packages")  # Debian, Ubuntu 20.04
 JOIN = "TANDEMLIFT_GAZEBO_ROS"
 URI, IP, HOST = "ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME"
 LOGS, LOGGING = "ROS_LOG_DIR", "ROS_PYTHON_LOG_CONFIG_FILE"
 NODE = "tandemlift_pilot"
-STARTING = 30.0  # s, after which a master that does not answer is given up
+START_TIMEOUT = 30.0  # s, after which a master that does not answer is given up
 SCRIPT = "rosmaster --core -p {port} & read -r end; kill $!; wait"  # ends when its pipe is closed
 
 
@@ -209,7 +211,7 @@ class RosMaster:
 
     def _wait(self, port: int) -> None:
         """Wait until the master answers at the port."""
-        deadline = time.monotonic() + STARTING
+        deadline = time.monotonic() + START_TIMEOUT
         while time.monotonic() < deadline and self._process.poll() is None:
             with contextlib.suppress(OSError), socket.create_connection(("127.0.0.1", port)):
                 return

@@ -4,13 +4,27 @@ This is the only list of channels. Data frames, bags, CSV files and docs/referen
 laws in `simulation.loop.log_sample` give the values, in the same order. CONTRIBUTING.md says how to add a channel.
 
 Frames: `world` is inertial with z up; `body` is fixed to the vehicle; `zxy` are Euler angles roll, pitch, yaw.
+
+A stamp is the time at which a sensor took what a row holds. The pilot knows a sample one step after it was taken, or
+later by the delay of its device, and has it until the next one. So `measured_rates` at time t is the truth, with
+errors, at `imu_stamp`, which is earlier. A device that is stale sends nothing new: its last stamp stays. A sample of
+the IMU holds the last one of joints that have their own clock.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+import itertools
+import math
+from collections.abc import Container, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from tandemlift.core.phases import PHASE_NUMBERS, REASON_NUMBERS
+from tandemlift.core.types import Array
+
+Steps = NDArray[np.int64]
 
 
 class Channel(NamedTuple):
@@ -284,3 +298,123 @@ def channel_of(name: str) -> Channel:
 def stamp_of(name: str) -> str:
     """The channel with the stamps of the readings in a channel `measured_…`."""
     return next((stamp for stamp, names in STAMP.items() if name in names), f"{name.removeprefix('measured_')}_stamp")
+
+
+# ---- Columns
+
+NUMBERED = ("rotor", "quadrotor")  # dimensions whose labels are bare numbers
+
+
+class Dimension(NamedTuple):
+    """A dimension of a channel's columns and its labels: axes, angles, or numbers from 1."""
+
+    name: str
+    labels: tuple[Any, ...]
+
+
+AXES = Dimension("axis", ("x", "y", "z"))
+ANGLES = Dimension("angle", ("roll", "pitch", "yaw"))
+QUATERNION = Dimension("quaternion", ("w", "x", "y", "z"))
+
+
+def dimensions(channel: Channel, count: int) -> tuple[Dimension, ...]:
+    """The dimensions of a channel's columns, the last varying fastest.
+
+    Args:
+        channel: its description.
+        count: its number of columns.
+    """
+    if not channel.per:
+        return _components(channel.frame, count)
+    if channel.width == 1:
+        return (Dimension(channel.per, tuple(range(1, count + 1))),)
+    each = Dimension(channel.per, tuple(range(1, count // channel.width + 1)))
+    return each, *_components(channel.frame, channel.width)
+
+
+def _components(frame: str, width: int) -> tuple[Dimension, ...]:
+    """The dimension of the numbers of a vector, of angles or of a quaternion; by default numbers from 1."""
+    if frame == "body to world" and width == 4:
+        return (QUATERNION,)
+    if width == 3 and frame:
+        return (ANGLES if frame == "zxy" else AXES,)
+    return (Dimension("component", tuple(range(1, width + 1))),)
+
+
+def column_names(name: str, channel: Channel, shape: tuple[int, ...]) -> list[str]:
+    """The name of each number of a channel's sample, whose shape is () for a single number."""
+    if not shape:
+        return [name]
+    parts = itertools.product(*[[_part(d.name, label) for label in d.labels] for d in dimensions(channel, shape[0])])
+    return ["_".join((name, *part)) for part in parts]
+
+
+def _part(dimension: str, label: object) -> str:
+    return f"{dimension}_{label}" if dimension in NUMBERED else str(label)
+
+
+# ---- Stamps
+
+
+def reading_stamps(mission: Mapping[str, Any], time: Array, channels: Container[str]) -> dict[str, Array]:
+    """The channels `imu_stamp`, `joints_stamp`, `motion_stamp` and those of additional sensors.
+
+    Before its first sample, a device has a reading of the start; its stamp is one interval before that sample.
+
+    Args:
+        mission: its resolved tables.
+        time: of the rows (T,) [s].
+        channels: names of a flight's channels; only devices with readings among them have stamps.
+
+    Returns:
+        The times [s] (T,) by channel; none without sensors.
+    """
+    step, sensors, found = mission["mission"]["step"], mission["sensors"], dict[str, Array]()
+    rows = np.round(time / step).astype(np.int64)
+    tables = {"imu": ("sensors", sensors), "motion": ("sensors.motion", sensors["motion"])}
+    tables |= {s["name"]: (f"sensors.additional.{i}", s) for i, s in enumerate(sensors["additional"])}
+    for device, (key, clock) in tables.items():
+        passed_on = _before_stale(mission, device, rows - 1 - round(clock["delay"] / step))
+        taken = _last_samples(mission, key, clock, passed_on)
+        found[f"{device}_stamp"] = taken * step
+        if device == "imu":
+            joints = sensors["joints"]
+            own = joints.get("interval") is not None
+            found["joints_stamp"] = step * (_last_samples(mission, "sensors.joints", joints, taken) if own else taken)
+    return {name: stamps for name, stamps in found.items() if any(of in channels for of in stamped_by(name))}
+
+
+def stamped_by(stamp: str) -> tuple[str, ...]:
+    """The channels of the readings with these stamps."""
+    return STAMP.get(stamp, (f"measured_{stamp.removesuffix('_stamp')}",))
+
+
+def _before_stale(mission: Mapping[str, Any], device: str, steps: Steps) -> Steps:
+    """Steps, but within those in which a device is stale the last one before."""
+    step = mission["mission"]["step"]
+    for fault in mission.get("sensor_faults", []):
+        if fault["sensor"] == device and fault["kind"] == "stale":
+            start, until = round(fault["time"] / step), fault.get("until")
+            end = math.inf if until is None else round(until / step)
+            steps = np.where((start <= steps) & (steps < end), start - 1, steps)
+    return steps
+
+
+def _last_samples(mission: Mapping[str, Any], key: str, clock: Mapping[str, Any], steps: Steps) -> Steps:
+    """The last step, until each of some, in which a device sampled; `key`: of its table, the clock."""
+    step, last = mission["mission"]["step"], int(steps.max(initial=0))
+    changes = [c for c in mission.get("changes", []) if c["key"] == f"{key}.interval"]
+    periods = [(0, max(1, round(clock["interval"] / step)))]
+    for change in sorted(changes, key=lambda c: c["time"]):  # ramps, as `simulation.parameter_changes` has them
+        begin = round(change["time"] / step) - 1
+        periods.append((begin, periods[-1][1]))
+        periods.append((begin + max(1, round(change["duration"] / step)), max(1, round(change["value"] / step))))
+    at, sizes = np.array(periods).T
+    first, size = round(clock["first_sample"] / step), int(sizes[0])
+    if not changes:
+        return first + np.maximum((steps - first) // size, -1) * size
+    samples = [first - size, first]
+    while samples[-1] <= last:
+        samples.append(samples[-1] + math.ceil(np.interp(samples[-1], at, sizes)))
+    taken = np.array(samples, np.int64)
+    return taken[np.maximum(np.searchsorted(taken, steps, side="right") - 1, 0)]

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import itertools
 import json
 from collections.abc import Iterator
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
 from tandemlift.core.errors import extra
 from tandemlift.core.types import Array
-from tandemlift.flight.channels import Channel
-
-NUMBERED = ("rotor", "quadrotor")  # dimensions whose labels are bare numbers
+from tandemlift.flight.channels import Channel, column_names, dimensions
 
 
 class LoggedFlight(Protocol):
@@ -50,42 +47,6 @@ class LoggedFlight(Protocol):
         """The metrics of the flight."""
 
 
-class Dimension(NamedTuple):
-    """A dimension of a channel's columns and its labels: axes, angles, or numbers from 1."""
-
-    name: str
-    labels: tuple[Any, ...]
-
-
-AXES = Dimension("axis", ("x", "y", "z"))
-ANGLES = Dimension("angle", ("roll", "pitch", "yaw"))
-QUATERNION = Dimension("quaternion", ("w", "x", "y", "z"))
-
-
-def dimensions(channel: Channel, count: int) -> tuple[Dimension, ...]:
-    """The dimensions of a channel's columns, the last varying fastest.
-
-    Args:
-        channel: its description.
-        count: its number of columns.
-    """
-    if not channel.per:
-        return _components(channel.frame, count)
-    if channel.width == 1:
-        return (Dimension(channel.per, tuple(range(1, count + 1))),)
-    each = Dimension(channel.per, tuple(range(1, count // channel.width + 1)))
-    return each, *_components(channel.frame, channel.width)
-
-
-def _components(frame: str, width: int) -> tuple[Dimension, ...]:
-    """The dimension of the numbers of a vector, of angles or of a quaternion; by default numbers from 1."""
-    if frame == "body to world" and width == 4:
-        return (QUATERNION,)
-    if width == 3 and frame:
-        return (ANGLES if frame == "zxy" else AXES,)
-    return (Dimension("component", tuple(range(1, width + 1))),)
-
-
 def columns(flight: LoggedFlight) -> Iterator[tuple[str, Channel, Any]]:
     """Name, channel and values (T,) of every number of every channel."""
     for name, values in flight.channels.items():
@@ -94,18 +55,6 @@ def columns(flight: LoggedFlight) -> Iterator[tuple[str, Channel, Any]]:
             column_names(name, info, values.shape[1:]), np.atleast_2d(values.T), strict=True
         ):
             yield column_name, info, column
-
-
-def column_names(name: str, channel: Channel, shape: tuple[int, ...]) -> list[str]:
-    """The name of each number of a channel's sample, whose shape is () for a single number."""
-    if not shape:
-        return [name]
-    parts = itertools.product(*[[_part(d.name, label) for label in d.labels] for d in dimensions(channel, shape[0])])
-    return ["_".join((name, *part)) for part in parts]
-
-
-def _part(dimension: str, label: object) -> str:
-    return f"{dimension}_{label}" if dimension in NUMBERED else str(label)
 
 
 def to_pandas(flight: LoggedFlight) -> Any:

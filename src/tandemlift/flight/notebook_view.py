@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 MOST_FINDINGS = 3
-WIDE = 48  # characters of a line
+LINE_WIDTH = 48  # characters of a line
 CELL = "padding:0.1em 0.8em 0.1em 0;text-align:left;vertical-align:top;white-space:nowrap"
 METRICS = (  # name in metrics.json, label here, displayed unit, and that unit in SI units
     ("position_rmse_after_10s_m", "position error after 10 s (RMS)", "mm", 1e-3),
@@ -56,7 +56,7 @@ def flight_html(flight: LoggedFlight, outcome: str, failure: str, findings: Sequ
 
 
 def _facts(flight: LoggedFlight, outcome: str, failure: str, findings: Sequence[Any]) -> list[tuple[str, str]]:
-    lines = textwrap.wrap(failure or outcome, WIDE, break_long_words=False)
+    lines = textwrap.wrap(failure or outcome, LINE_WIDTH, break_long_words=False)
     flown = f"{flight.time[-1]:g} s, {len(flight.time):,} samples" if len(flight.time) else "nothing logged"
     return [
         ("mission", f"<b>{escape(flight.name)}</b>"),
@@ -100,8 +100,8 @@ BLUE, VERMILLION, GREY = "#2a8bcc", "#e0701f", "#8c8c8c"  # visible on white and
 INK = "#123456"  # stands for the colour of the notebook's text
 POINTS = 240  # at most, of a line
 SIZE = (6.4, 2.8)  # in
-NEAR = 3.0  # m around the path in which walls are drawn
-LEAST = 0.5  # m, the shortest side that the path's picture shows
+WALL_DISTANCE = 3.0  # m around the path in which walls are drawn
+SHORTEST_SIDE = 0.5  # m, the shortest side that the path's picture shows
 STYLE = {
     **{"svg.fonttype": "none", "font.family": "sans-serif", "font.size": 8.0, "axes.titlesize": 8.0},
     **{f"axes.spines.{side}": False for side in ("top", "right")},
@@ -150,8 +150,8 @@ def _draw_path(ax: Axes, flight: LoggedFlight, sound: Any) -> None:
     ax.plot(*path[0], "o", ms=4.0, mfc="none", mec=BLUE)
     ax.plot(*path[-1], "o", ms=4.0, color=BLUE)
     ax.set_aspect("equal", adjustable="datalim")
-    if np.ptp(path, axis=0).max() < LEAST:
-        ax.set_xlim(*(path[0, 0] + np.array([-LEAST, LEAST])))
+    if np.ptp(path, axis=0).max() < SHORTEST_SIDE:
+        ax.set_xlim(*(path[0, 0] + np.array([-SHORTEST_SIDE, SHORTEST_SIDE])))
     ax.set_title("path from above (m)", loc="left")
 
 
@@ -171,7 +171,7 @@ def _payload(flight: LoggedFlight, k: int) -> list[Array]:
 
 def _walls(mission: dict[str, Any], around: Array) -> list[Array]:
     """Walls near the path, each as a line (2, 2) [m]."""
-    low, high = around.min(0) - NEAR, around.max(0) + NEAR
+    low, high = around.min(0) - WALL_DISTANCE, around.max(0) + WALL_DISTANCE
     walls = [np.array([wall["start"], wall["end"]], float) for wall in wall_tables(mission)]
     return [w for w in walls if (w.max(0) >= low).all() and (w.min(0) <= high).all()]
 

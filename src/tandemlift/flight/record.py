@@ -18,9 +18,8 @@ from tandemlift.core.files import FLIGHT_FILE, atomic_write, unpacked_size
 from tandemlift.core.findings import Finding, finding_from
 from tandemlift.core.phases import FAILURES, INTERRUPTED
 from tandemlift.core.types import Array
-from tandemlift.flight.channels import CHANNELS, DERIVED, OTHER, STAMP, Channel, channel_of
+from tandemlift.flight.channels import CHANNELS, DERIVED, OTHER, STAMP, Channel, channel_of, reading_stamps
 from tandemlift.flight.data_frames import to_pandas, to_xarray
-from tandemlift.flight.reading_stamps import reading_stamps
 
 if TYPE_CHECKING:  # what few readers of a flight need, they load
     import pandas

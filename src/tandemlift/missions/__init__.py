@@ -8,51 +8,41 @@ A function that needs a part of a mission takes that table, or `Mission.hover`: 
 
 from tandemlift.core.plugs import load_plugin
 from tandemlift.missions.acting import IdleKey, idle_keys, sentences
-from tandemlift.missions.changes import format_toml, merge, tables_of
-from tandemlift.missions.checking import changed, check
+from tandemlift.missions.changes import (
+    MISSING,
+    Place,
+    Tables,
+    changed_tables,
+    format_toml,
+    merge,
+    place_of,
+    places_in,
+    tables_of,
+    value_at,
+)
+from tandemlift.missions.checking import Layer, changed, check
+from tandemlift.missions.facts import RESTLESS, calm_time
 from tandemlift.missions.loading import (
-    DATA,
+    MAX_FILE,
     MissionLike,
     MissionTemplate,
     built_in,
     load_mission,
     mission_from_text,
     mission_of,
+    placed,
+    read_tables,
 )
 from tandemlift.missions.mission import (
     HoverFacts,
     InitialTable,
     Mission,
+    MissionTable,
     PersonTable,
     SensorsTable,
     VehicleTable,
+    check_double,
     check_keys,
+    with_precision,
 )
-from tandemlift.missions.mission import check_double as check_double
-from tandemlift.missions.mission import with_precision as with_precision
-
-__all__ = [
-    "DATA",
-    "HoverFacts",
-    "IdleKey",
-    "InitialTable",
-    "Mission",
-    "MissionLike",
-    "MissionTemplate",
-    "PersonTable",
-    "SensorsTable",
-    "VehicleTable",
-    "built_in",
-    "changed",
-    "check",
-    "check_keys",
-    "format_toml",
-    "idle_keys",
-    "load_mission",
-    "load_plugin",
-    "merge",
-    "mission_from_text",
-    "mission_of",
-    "sentences",
-    "tables_of",
-]
+from tandemlift.missions.refusals import problems_in

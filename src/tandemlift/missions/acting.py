@@ -16,7 +16,7 @@ from tandemlift.core.errors import dotted, written
 
 Place = tuple[str | int, ...]
 Tables = dict[str, Any]
-SHOWN = 4  # keys that a sentence names
+SHOWN_KEYS = 4  # keys that a sentence names
 ALSO = "also "  # before a condition by which a key acts whatever its tables need
 
 
@@ -124,9 +124,9 @@ def _sentence(mission: BaseModel, condition: str, names: list[str]) -> str:
     decisive = condition.partition(" ")[0]
     value = reduce(_part, decisive.split("."), mission)
     is_now = "is not given" if value in (None, ()) else f"is {written(value)}"
-    more = f" and {len(names) - SHOWN} more keys" if len(names) > SHOWN else ""
+    more = f" and {len(names) - SHOWN_KEYS} more keys" if len(names) > SHOWN_KEYS else ""
     verb, pronoun = ("has", "it acts") if len(names) == 1 else ("have", "they act")
-    return f"{', '.join(names[:SHOWN])}{more} {verb} no effect: {decisive} {is_now}; {pronoun} where {condition}"
+    return f"{', '.join(names[:SHOWN_KEYS])}{more} {verb} no effect: {decisive} {is_now}; {pronoun} where {condition}"
 
 
 def places_in(value: object, above: Place = ()) -> Iterator[Place]:

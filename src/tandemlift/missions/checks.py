@@ -11,10 +11,10 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 from tandemlift.core.errors import CLOSE, FAILS, OK, REFUSED, SETTINGS, CheckResult, InputError, refused
-from tandemlift.core.phases import HARD
+from tandemlift.core.phases import CRASH_SPEED
 from tandemlift.missions import outcomes
 from tandemlift.missions.facts import Facts
-from tandemlift.missions.flight_checks import flight_checks
+from tandemlift.missions.flight_checks import FlightCheck, flight_checks
 from tandemlift.missions.mission import PARTS, Mission, MissionTable
 from tandemlift.missions.recording import read_recording
 from tandemlift.parts.contact import standing
@@ -33,6 +33,8 @@ from tandemlift.parts.rotors.rotor_faults import fault_checks, fault_warnings
 from tandemlift.parts.rotors.rotors import ActuatorsTable
 from tandemlift.parts.sensors import sensor_checks as sensors
 from tandemlift.parts.sensors.sensors_table import SensorsTable
+
+__all__ = ["FlightCheck", "check_lines", "flight_checks", "mission_checks", "refusals"]
 
 MAX_STEPS = 1_000_000_000
 MAX_LOG = 4_000_000_000  # bytes
@@ -102,7 +104,7 @@ def mission_checks(m: Mission) -> Iterator[CheckResult]:
         yield from estimator.bias_warnings(e, m.sensors.joints.force_bias, m.pilot.push)
         yield from estimator.tare_warnings(e, p, m.pushes, end)
     if over_floor:
-        limit = hover.mass * HARD if m.crash.impulse is None else m.crash.impulse
+        limit = hover.mass * CRASH_SPEED if m.crash.impulse is None else m.crash.impulse
         stands = standing.standing_on(m.ground, m.vehicle, m.plant.mass_scale, m.mission.step, m.initial)
         yield from standing.floor_warnings(m.ground, m.vehicle, m.actuators.model, m.mission.step, stands)
         yield from standing.start_warnings(p, stands)

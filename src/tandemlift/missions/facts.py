@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import reduce
+from inspect import unwrap
+from types import MappingProxyType
 from typing import Any
 
 from tandemlift.core.algebra import minimum
@@ -19,6 +21,7 @@ from tandemlift.missions.mission import PARTS, Mission
 from tandemlift.parts.controllers.interface import tilt_limit_of
 from tandemlift.parts.guidance.compliance import push_filters
 from tandemlift.parts.guidance.start_guidance import phase_settings
+from tandemlift.parts.mechanics.push import SUPPORT
 from tandemlift.parts.rotors.allocation import mixer_of
 from tandemlift.parts.rotors.rotor_faults import known_faults
 from tandemlift.parts.sensors.sensors_table import steps_of
@@ -56,23 +59,30 @@ MADE: Mapping[str, Callable[..., Any]] = {
 
 
 class Facts(dict[str, Any]):
-    """The facts of a mission by name, each made once, when it is first read."""
+    """The facts of a mission by name, each made once, when it is first read.
 
-    def __init__(self, mission: Mission) -> None:
-        super().__init__()
-        self.of = mission
+    Args:
+        mission: which they are of; `scene` is its view for an engine.
+        more: what makes further facts, as `MADE` does.
+    """
+
+    def __init__(self, mission: Mission, more: Mapping[str, Callable[..., Any]] = MappingProxyType({})) -> None:
+        super().__init__(scene=mission)
+        self.of, self._made = mission, {**MADE, **more}
 
     def __missing__(self, name: str) -> Any:
         if name == "started":  # not kept: a circle would outlive the numbers that are traced
             return self.started
-        self[name] = made = self.call(MADE[name]) if name in MADE else getattr(self.of, name)
+        self[name] = made = self.call(self._made[name]) if name in self._made else getattr(self.of, name)
         return made
 
     def call(self, function: Callable[..., Any], own: Mapping[str, Any] | None = None) -> Any:
         """A function of facts; `own`: other arguments by name."""
-        code = function.__code__
+        code = unwrap(function).__code__  # of a cached function, which has its arguments by place
         names = code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
-        return function(**{name: own[name] if own and name in own else self[name] for name in names})
+        given = [own[name] if own and name in own else self[name] for name in names]
+        by_name = dict(zip(names[code.co_argcount :], given[code.co_argcount :], strict=True))
+        return function(*given[: code.co_argcount], **by_name)
 
     def ask(self, part: Part, function: Callable[..., Any], **own: Any) -> Any:
         """A function that a part declares."""
@@ -92,3 +102,20 @@ class Facts(dict[str, Any]):
                 parameters[part.name] = k
                 memory |= {part.name: m} if part.remembers else {}
         return parameters, memory
+
+
+RESTLESS = tuple(part.key for part in PARTS if part.begins or not part.calm)
+"""The tables of the parts with which a vehicle does not rest in hover, or not to the end."""
+
+
+def calm_time(mission: Mission) -> float:
+    """The default time [s] of a flight that is tared: the end of the first calm after the lift.
+
+    This is before the first push, fault, excitation or landing and before a person begins; else the mission's end.
+    """
+    phases, facts = mission.phases, Facts(mission)
+    ends = [push.time - SUPPORT * push.sigma for push in mission.pushes] + [fault.time for fault in mission.faults]
+    ends += [] if phases.land_start is None else [phases.land_start]
+    ends += [facts.ask(part, part.begins) for part in PARTS if part.begins and facts.has(part)]
+    hovers = phases.lift_start + phases.lift_duration
+    return max(min([facts["end"], *(calm for calm in ends if calm > hovers)]), 0.0)

@@ -24,7 +24,6 @@ from tandemlift.parts.contact.corridor import CorridorTable, WallTable, nearest_
 from tandemlift.parts.contact.standing import GroundTable
 from tandemlift.parts.controllers import ControllerTable
 from tandemlift.parts.estimation.contact_detection import CONTACT, ContactTable
-from tandemlift.parts.estimation.disturbance_observer import OBSERVER, ObserverTable
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.estimation.push_confirmation import CONFIRMATION
 from tandemlift.parts.flight_checks.loop_checks import ControlLoop, push_feedback, reading_delays
@@ -32,6 +31,7 @@ from tandemlift.parts.guidance.above_ground import CLEARANCE
 from tandemlift.parts.guidance.admittance import AdmittanceTable, with_feel
 from tandemlift.parts.guidance.compliance import ComplianceTable
 from tandemlift.parts.guidance.contact_hold import CONTACT_HOLD
+from tandemlift.parts.guidance.disturbance_observer import OBSERVER, ObserverTable
 from tandemlift.parts.guidance.energy_tank import TANK
 from tandemlift.parts.guidance.following import FOLLOWING
 from tandemlift.parts.guidance.guidance import PilotTable

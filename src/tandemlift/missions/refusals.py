@@ -17,7 +17,7 @@ from tandemlift.core.plugs import Chosen
 from tandemlift.missions.changes import MISSING, Place, value_at
 from tandemlift.missions.key_descriptions import Model, allowed, plain, table_in
 
-MOST = 64  # problems with a sentence, more than are told: those of a file of garbage would take seconds
+MOST_PROBLEMS = 64  # problems with a sentence, more than are told: those of a file of garbage would take seconds
 BY_ANNOTATION = (  # prefixes of the kinds of error for which the annotation has the allowed values
     *("missing", "axes", "float_", "int_", "bool_", "string_type", "finite_", "greater_", "less_"),
     *("literal_", "model_", "tuple_", "list_", "dict_", "too_"),
@@ -38,7 +38,7 @@ def problems_in(
     data = value_at(tables, prefix)
     found: dict[Place, Problem] = {}
     for problem in error.errors(include_url=False, include_input=False):
-        if len(found) >= MOST:
+        if len(found) >= MOST_PROBLEMS:
             place, text = tuple(problem["loc"]), "…"
         elif problem["type"] == "extra_forbidden":
             place, text = _unknown_key(model, problem, data, prefix, whole)

@@ -7,7 +7,7 @@ from collections import OrderedDict
 from collections.abc import Callable, Iterable, Iterator, Sequence, Sized
 from typing import Any, NamedTuple
 
-SORTED = 64  # flights of one variant that are sorted before they are cut into blocks
+SORTED_FLIGHTS = 64  # flights of one variant that are sorted before they are cut into blocks
 WAITING = 512  # flights, at most, that wait for others of their variant
 
 
@@ -92,7 +92,7 @@ class FlightGroups:
                 alike = [i for i, flight in enumerate(group.flights) if flight.regime == p.regime]
                 if len(alike) == p.lanes:
                     yield group.pop(alike)
-                elif len(group.flights) == SORTED:
+                elif len(group.flights) == SORTED_FLIGHTS:
                     yield from group.blocks()
                 elif sum(len(g.flights) for g in waiting.values()) > WAITING:  # the group that waits longest flies
                     yield from waiting.popitem(last=False)[1].blocks()

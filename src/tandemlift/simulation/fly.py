@@ -17,7 +17,7 @@ from tandemlift.core.plugs import explained
 from tandemlift.core.progress import Stopped, always, progress_or_own
 from tandemlift.core.types import Progress, leaves, unflat
 from tandemlift.flight.record import Flight
-from tandemlift.missions import Mission, MissionLike, mission_of, with_precision
+from tandemlift.missions import MissionLike, mission_of, with_precision
 from tandemlift.missions.recording import engine_of
 from tandemlift.simulation.caller_values import count_of
 from tandemlift.simulation.flight_groups import FlightGroup, FlightGroups
@@ -123,7 +123,7 @@ def _fly_compiled(
 
 
 def fly(mission: MissionLike, engine: str | None = None, *, progress: Progress | None = None) -> Flight:
-    """Fly a mission that is prepared anew; otherwise as `codegen.known_flights.fly`, which is `tl.fly`."""
+    """Fly a mission that is prepared anew; otherwise as `simulation.known_flights.fly`, which is `tl.fly`."""
     return fly_plan(plan_of(mission, engine), progress)[0]
 
 
@@ -217,7 +217,7 @@ def _flown_by_threads(groups: FlightGroups, keep: str, count: int, *, refusals: 
     return [results[place] for place in range(groups.read)]
 
 
-def refusal_of(error: Exception, mission: Mission) -> InputError:
+def refusal_of(error: Exception) -> InputError:
     """The refusal of a mission by an error of its flight, if that is invalid input or of a user's controller.
 
     Raises:
@@ -238,7 +238,7 @@ def _results_of(group: FlightGroup, keep: str, going: Callable[[], bool], *, ref
     except Exception as error:
         if not refusals:
             raise
-        return [refusal_of(error, group.flights[0].mission)] * len(group.flights)
+        return [refusal_of(error)] * len(group.flights)
 
 
 def _flown(flights: list[FlightPlan], keep: str, going: Callable[[], bool]) -> list[Any]:

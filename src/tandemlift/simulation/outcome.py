@@ -7,15 +7,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from functools import reduce
+from typing import Any, NamedTuple
 
 from tandemlift.core.algebra import atan2, chosen, maximum, sqrt, where
 from tandemlift.core.law import law
-from tandemlift.core.phases import ENDING_OF, FAR, LEFT_FENCE, STRUCK, TURNED_OVER
+from tandemlift.core.phases import (
+    DIVERGED,
+    ENDING_OF,
+    ENDINGS,
+    LARGEST_DISTANCE,
+    LEFT_FENCE,
+    STRUCK,
+    TURNED_OVER,
+    EndingKind,
+)
 from tandemlift.core.trajectories import PhasesTable
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO, Absent, Vec3, dot
-from tandemlift.flight.record import Ending
+from tandemlift.flight.record import CAUSE_TEXT, ENDING_TEXT, Ending
 from tandemlift.parts.guidance.compliance import ComplianceTable
 from tandemlift.parts.guidance.fault_detection import distance_outside
 from tandemlift.parts.guidance.requests import RequestTable
@@ -27,9 +37,9 @@ from tandemlift.simulation.loop.step import FlightState
 from tandemlift.simulation.plan import FlightPlan
 
 NOT_FINITE = "must be finite"
-STEEPEST = 1.875  # slope of the smooth step that a landing follows
+LARGEST_SLOPE = 1.875  # slope of the smooth step that a landing follows
 MARGIN = 1.0  # s, in which a landing should touch down after its reference
-BORNE = 0.5  # of the weight: the part that the floor carries of a standing vehicle
+BORNE_SHARE = 0.5  # of the weight: the part that the floor carries of a standing vehicle
 DEGREE = 57.29577951308232  # 180/π
 
 
@@ -111,6 +121,35 @@ def ending_of(p: FlightPlan, s: FlightState, step: int, interruption: Ending | N
     return Ending(kind.quantity, found.time, found.value, limit_of(p, found.number), kind.outcome, cause)
 
 
+ENDING_PARTS = (("limits",), *[("flight_state", name) for name in ("crash", "ended", "state", "impulse")])
+
+
+def ending_parts(p: FlightPlan) -> tuple[Any, ...]:
+    """The values of a flight that its ending follows from; `ENDING_PARTS` are their paths."""
+    return tuple(reduce(getattr, path, p.model) for path in ENDING_PARTS)
+
+
+def ending_from(limits: Any, crash: Any, ended: Any, state: Any, impulse: Any, t: Any) -> EndingNumbers:
+    """The ending of a flight at time t [s], from its `ENDING_PARTS`."""
+    return ending_numbers(limits, crash, EndingMoment(ended, t, state, impulse))
+
+
+def ending_texts(p: FlightPlan) -> dict[str, Any]:
+    """Outcome and text of each ending by number; the texts of non-finite values by their place in the state.
+
+    The places of a text's numbers are in braces; {rounded}: of three digits.
+    """
+    known = {str(int(k.number)): _ending_text(p, k, k.quantity, limit_of(p, k.number)) for k in ENDINGS}
+    return {"by_number": known, "not_finite": [_ending_text(p, ENDING_OF[DIVERGED], part) for part in State._fields]}
+
+
+def _ending_text(p: FlightPlan, kind: EndingKind, quantity: str, limit: str = NOT_FINITE) -> dict[str, str]:
+    cause = cause_of(p, kind.number).format(value="{rounded}")
+    named = {"quantity": quantity, "limit": limit, "time": "{time}", "value": "{value}", "cause": cause}
+    text = (CAUSE_TEXT if cause else ENDING_TEXT).replace(":.6g", "")
+    return {"outcome": kind.outcome, "text": text.format(outcome=kind.outcome, **named)}
+
+
 def place_of(p: FlightPlan, s: FlightState) -> Vec3:
     """The place at which a flight ended [m, world]."""
     return ending_numbers(p.model.limits, s.crash, EndingMoment(s.ended, 0.0, s.state, s.impulse)).place
@@ -125,7 +164,7 @@ def limit_of(p: FlightPlan, number: float) -> str:
         return f"must stay below {limits.strike.impulse:.3g} N s"
     if number == LEFT_FENCE:
         return f"must stay below {p.mission.crash.fence_margin:g} m"
-    return f"must stay below {FAR:g} m"
+    return f"must stay below {LARGEST_DISTANCE:g} m"
 
 
 def cause_of(p: FlightPlan, number: float) -> str:
@@ -168,7 +207,7 @@ def _stands(p: FlightPlan, state: State, last: Sample, start: float, end: float)
     mission, slow = p.mission, math.dist(state.velocity, ZERO) < p.mission.outcome.landed_speed
     strike = p.model.limits.strike
     if not isinstance(last.contact, Absent) and not isinstance(strike, Absent):
-        return slow and last.contact.contact_force.z > BORNE * strike.weight
+        return slow and last.contact.contact_force.z > BORNE_SHARE * strike.weight
     land = mission.phases.land_start
     if land is None or land + mission.phases.land_duration > end:
         return False
@@ -179,4 +218,6 @@ def landing_time(p: PhasesTable, by_hand: ComplianceTable | None) -> float:
     """The longest time of a landing from the height of the lift [s]; `by_hand`: limits of interactive guidance."""
     if by_hand is None:
         return p.land_duration
-    return max(p.land_duration, STEEPEST * (p.height + by_hand.touchdown_depth) / by_hand.max_descent_speed) + MARGIN
+    return (
+        max(p.land_duration, LARGEST_SLOPE * (p.height + by_hand.touchdown_depth) / by_hand.max_descent_speed) + MARGIN
+    )

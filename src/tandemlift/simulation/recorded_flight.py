@@ -25,15 +25,49 @@ from tandemlift.missions.recording import HAND_FILE, MISSION_FILE, WIDTH, Record
 from tandemlift.parts.person.virtual_hand import HAND_RELEASED, VirtualHandInput
 from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.loop.running_metrics import EMPTY
-from tandemlift.simulation.outcome import ending_of, place_of
-from tandemlift.simulation.parameter_changes import ScheduledChange, scheduled_change
+from tandemlift.simulation.outcome import (
+    ENDING_PARTS,
+    ending_from,
+    ending_of,
+    ending_parts,
+    ending_texts,
+    place_of,
+)
+from tandemlift.simulation.parameter_changes import (
+    HAND_PARTS,
+    LATER,
+    NO_EFFECT,
+    ScheduledChange,
+    hand_place,
+    scheduled_change,
+)
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import leaf_offset
+from tandemlift.simulation.refusals import refusal_numbers
 from tandemlift.simulation.results import RawResult, flight_of, take_metrics
 from tandemlift.simulation.stepping import Stepper, body_of
 
+__all__ = [
+    "EMPTY_FLIGHT",
+    "ENDING_PARTS",
+    "HAND_PARTS",
+    "HAND_RELEASED",
+    "LATER",
+    "NO_EFFECT",
+    "FlightSetup",
+    "FlightSnapshot",
+    "RecordedFlight",
+    "ending_from",
+    "ending_parts",
+    "ending_texts",
+    "hand_place",
+    "refusal_numbers",
+    "save_flight",
+    "scheduled_change",
+    "setup_flight",
+]
+
 FLYING = "flying"  # the outcome of a flight that continues
-MISSION, HAND, FLIGHT = MISSION_FILE, HAND_FILE, FLIGHT_FILE
 EMPTY_FLIGHT = "nothing was flown yet: there is nothing to save"
 
 
@@ -64,9 +98,9 @@ class FlightSnapshot:
         """Write mission and hand into a folder."""
         steps = np.array([k for k, _ in self.hand], dtype=np.int64)
         hands = np.reshape([hand for _, hand in self.hand], (len(steps), WIDTH))
-        write_recording(folder / HAND, Recording(steps, hands, self.engine))
-        comment = f"# Flies again, in the engine {self.engine}: tandemlift run {MISSION}\n\n"
-        write_file(folder / MISSION, comment + self._toml(folder.name))
+        write_recording(folder / HAND_FILE, Recording(steps, hands, self.engine))
+        comment = f"# Flies again, in the engine {self.engine}: tandemlift run {MISSION_FILE}\n\n"
+        write_file(folder / MISSION_FILE, comment + self._toml(folder.name))
 
     def alone(self) -> Flight:
         """The flight by itself, with a mission of the same length that has neither hand nor changes."""
@@ -76,7 +110,7 @@ class FlightSnapshot:
     def _toml(self, name: str) -> str:
         tables, step = tables_of(self.start), self.start.mission.step
         tables["mission"] |= {"name": name, "duration": self.flown.step * step}
-        tables["person"]["recording"] = HAND
+        tables["person"]["recording"] = HAND_FILE
         tables["changes"] = [c for c in self.changes if round(c["time"] / step) <= self.flown.step]
         return format_toml(tables)
 
@@ -84,12 +118,12 @@ class FlightSnapshot:
 def save_flight(folder: Path, flown: RawResult, engine: str) -> Flight:
     """Write the flight that was flown into the folder of its recorded mission."""
     with without_flight_warnings():
-        p = FlightPlan(end := load_mission(folder / MISSION))
+        p = FlightPlan(end := load_mission(folder / MISSION_FILE))
         for change in end.changes:
             end = changed(end, change.key, change.value)
         flown = replace(flown, now=FlightPlan(end))  # a plan stays in its process
     flight = flight_of(p, flown, engine)
-    flight.save(folder / FLIGHT)
+    flight.save(folder / FLIGHT_FILE)
     return flight
 
 

@@ -25,7 +25,7 @@ from tandemlift.parts.guidance.supervision import Supervision, SupervisionState
 from tandemlift.parts.mechanics.rotation import body_z_axis
 from tandemlift.parts.rotors.rotor_faults import efficiency_at
 
-WHOLE = 6755399441055744.0  # 1.5·2⁵²: a number that is added and subtracted again becomes a whole one
+ROUNDING = 6755399441055744.0  # 1.5·2⁵²: a number that is added and subtracted again becomes a whole one
 HUNDREDTHS, TENTHS = 100.0, 10.0
 LIMITED_ALARM = float(next(fault.alarm for fault in FAULTS if fault.key == "limited"))
 DEGREE, PERCENT = 180.0 / math.pi, 100.0
@@ -53,7 +53,7 @@ NONE = ReasonNumbers(0.0, 0.0, 0.0)
 @law
 def rounded(x: Number, parts: Number) -> Number:
     """A number of moderate size, rounded to a fraction of 1."""
-    return ((x * parts + WHOLE) - WHOLE) / parts
+    return ((x * parts + ROUNDING) - ROUNDING) / parts
 
 
 def reason(key: str, value: Number = 0.0, limit: Number = 0.0, parts: float = HUNDREDTHS) -> ReasonNumbers:

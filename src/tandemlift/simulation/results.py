@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 from tandemlift.core.errors import InputError, suggestion
 from tandemlift.core.faults import ALARM_TEXTS, CHECKS
 from tandemlift.core.files import versions
+from tandemlift.core.findings import Finding
 from tandemlift.core.phases import CONTACT as PHASE_CONTACT
 from tandemlift.core.phases import FAILURES, IDLE, PHASE_NAMES
 from tandemlift.core.plugs import Plug, error_text, file_of, listed
 from tandemlift.core.types import Array, flat, leaves, unflat
 from tandemlift.core.vector import Absent, Vec3
-from tandemlift.flight.channels import DERIVED
-from tandemlift.flight.reading_stamps import reading_stamps
+from tandemlift.flight.channels import DERIVED, reading_stamps
 from tandemlift.flight.record import Ending, Flight
 from tandemlift.missions import tables_of
 from tandemlift.missions.recording import portable
@@ -31,7 +31,7 @@ from tandemlift.simulation.loop.step import FlightModel, FlightState
 from tandemlift.simulation.outcome import ending_of, outcome_of
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import leaf_offset
-from tandemlift.simulation.touches import describe_contact
+from tandemlift.simulation.touches import contact_codes, describe_contact
 
 ONE_STEP = EMPTY._replace(steps=1.0)
 SHAPES = summary(ONE_STEP, ONE_STEP, 1.0)  # metrics that every flight has, with numbers in their place
@@ -111,6 +111,11 @@ def metrics_of(p: FlightPlan, flown: RawResult) -> dict[str, Any]:
     return {**formed, "steps": flown.step, "wall_s": flown.wall, "events": events_of(flown.flight_state)}
 
 
+def findings_from(p: FlightPlan, flown: RawResult) -> tuple[Finding, ...]:
+    """The findings of a flight so far."""
+    return findings_of(p, flown.flight_state, flown.step, metrics_of(p, flown)["outcome"])
+
+
 def metric_names(p: FlightPlan) -> list[str]:
     """The names of the metrics of a flight, known before it is flown."""
     empty = p.model.flight_state.metrics
@@ -144,6 +149,23 @@ def describe_event(now: EventCode, before: EventCode) -> str:
     if phase != before[0] or not refused:
         return PHASE_NAMES[phase] + (f": {CHECKS[refused - 1].text}" if refused else "")
     return f"{'no lift' if phase == IDLE else 'guidance disabled'}: {CHECKS[refused - 1].text}"
+
+
+def changes_of(flight: Flight, before: EventCode) -> Iterator[tuple[int, EventCode, str]]:
+    """Each change of phase, alarm, failed check or contact in a flight's samples: its row, what they are now, its text.
+
+    `before`: what they were.
+    """
+    if "phase" not in flight:
+        return
+    none = np.zeros(len(flight.time))
+    seen = np.column_stack([flight.channels.get(name, none) for name in ("phase", "alarm", "failed_check")])
+    codes = contact_codes(flight) or [0] * len(seen)
+    for row, ((phase, alarm, refused), code) in enumerate(zip(seen.astype(int).tolist(), codes, strict=True)):
+        now = (phase, alarm, refused, code or (before[3] if phase == PHASE_CONTACT else 0))
+        if now != before:
+            yield row, now, describe_event(now, before)
+            before = now
 
 
 def channels_of(like: Any, rows: Array) -> Iterator[tuple[str, Array]]:

@@ -27,6 +27,13 @@ from tandemlift.simulation.preparation import leaf_offset
 from tandemlift.simulation.results import RawResult, SampleChannels, flight_of, take_metrics
 from tandemlift.simulation.stepping import Stepper, body_of
 
+__all__ = [
+    "Simulation",
+    "checked_seed",
+    "count_of",
+    "held_inputs",
+]
+
 REPORT_EVERY = 1000  # steps between reports of computing time, which decides when optimised code is made
 
 

@@ -18,10 +18,10 @@ from tandemlift.analysis.certification.sector_bound import (
     response,
     without_resting_modes,
 )
-from tandemlift.analysis.certification.thrust_bounds import RotorAxes
 from tandemlift.analysis.linearization.loop_margins import AXES
 from tandemlift.core.algebra import sin, tan
 from tandemlift.core.errors import InputError
+from tandemlift.parts.pilot.commanded_thrusts import RotorAxes
 
 STEP = 1e-3
 

@@ -11,9 +11,9 @@ import pytest
 
 from tandemlift.analysis.certification.intervals import Interval, bounds
 from tandemlift.analysis.certification.nonlinear import box_of
-from tandemlift.analysis.certification.thrust_bounds import commanded_thrusts
 from tandemlift.core import algebra
 from tandemlift.missions import load_mission
+from tandemlift.parts.pilot.commanded_thrusts import commanded_thrusts
 from tandemlift.simulation.pilot_api import pilot_at_start
 
 mpmath = pytest.importorskip("mpmath")

@@ -25,9 +25,9 @@ from tandemlift.analysis.certification.sector_bound import (
     tolerated,
     without_resting_modes,
 )
-from tandemlift.analysis.certification.thrust_bounds import rotor_axes
 from tandemlift.core.errors import InputError
 from tandemlift.missions import load_mission
+from tandemlift.parts.pilot.commanded_thrusts import rotor_axes
 
 pytestmark = pytest.mark.skipif(find_spec("cvxpy") is None, reason="needs cvxpy")
 scipy_signal = pytest.importorskip("scipy.signal")

@@ -69,7 +69,7 @@ def test_gaussians_add_up_to_a_sine_that_begins_as_suddenly(frequency):
 
 
 def test_the_check_shakes_with_the_force_of_the_check_of_a_push():
-    assert (PEAK, PUSHED) == (authority.PUSH, authority.PUSHED)
+    assert (PEAK, PUSHED) == (authority.HAND_FORCE, authority.HAND_MASS)
 
 
 def test_deviations_are_the_largest_from_the_reference_since_the_shake_began():

@@ -19,10 +19,10 @@ from tandemlift.analysis.identification.prediction import (
     moved_starts,
 )
 from tandemlift.analysis.identification.sensor_errors import SensorPriors
+from tandemlift.analysis.identification.vehicle_unknowns import unknowns_of
 from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, Stream, conjugate
 from tandemlift.analysis.logs.log import quaternion_product as product
 from tandemlift.core.types import flat
-from tandemlift.engines.vehicle_unknowns import unknowns_of
 
 RNG = np.random.default_rng(11)
 sampled = partial(flight_windows.sampled, rng=RNG)

@@ -14,10 +14,10 @@ from tandemlift.analysis.identification.identify import reference_rows
 from tandemlift.analysis.identification.judgement import covariance_of
 from tandemlift.analysis.identification.prediction import Predictor
 from tandemlift.analysis.identification.sensor_errors import sensor_priors
+from tandemlift.analysis.identification.vehicle_unknowns import driven_numbers, unknowns_of
 from tandemlift.analysis.identification.windows import windows_of
 from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, Log, Stream, log_of, quaternion_product
 from tandemlift.core.errors import InputError
-from tandemlift.engines.vehicle_unknowns import driven_numbers, unknowns_of
 from tandemlift.missions import load_mission
 from tandemlift.pictures.report.identification_report import draw_estimates, write_identification
 

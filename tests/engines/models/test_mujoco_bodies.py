@@ -87,7 +87,7 @@ def excited(mission, vehicle, seconds):
     body, plant, state = (
         MuJoCoBody(mission, vehicle),
         start_plant(mission, vehicle, Absent(), Absent()),
-        start_state(mission),
+        start_state(mission.initial),
     )
     rng, weight, J = np.random.default_rng(3), vehicle.weight * mission.plant.mass_scale, np.diag(vehicle.inertia)
     phase, rate = rng.uniform(0.0, 6.0, (2, vehicle.rotor_count))
@@ -223,7 +223,7 @@ def test_a_crooked_landing_goes_as_in_the_compiled_engine():
         "initial.velocity": [0.2, 0.2, 0.2],
     }
     body, ground, mission, vehicle = standing("paper", fall)
-    state, plant = start_state(mission), start_plant(mission, vehicle, ground, Absent())
+    state, plant = start_state(mission.initial), start_plant(mission, vehicle, ground, Absent())
     grip, off, still = start_foot_grip(ground, state), each(8)(*[0.0] * 8), CentralPush(vec3(NONE))
     apart = []
     for _ in range(600):

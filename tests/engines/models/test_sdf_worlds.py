@@ -11,7 +11,7 @@ import tandemlift as tl
 from tandemlift.apps.export.write import export
 from tandemlift.engines.models.scene import floor_from
 from tandemlift.parts.contact.hull import HALF_THICKNESS
-from tandemlift.parts.contact.spheres import SPARED
+from tandemlift.parts.contact.spheres import GUARD_DEFLECTION
 
 
 def inertia_about(links):
@@ -134,7 +134,7 @@ def test_what_touches_is_the_shape_of_the_contact_laws(world):
         hubs = np.column_stack([q.rotors, np.full(4, q.rotor_height)])
         np.testing.assert_allclose([place for _, place, _ in discs], hubs, atol=1e-12)
         for j, (x, y) in enumerate(q.rotors, 1):  # spheres of those that stand out
-            stands_out = np.hypot(x, y) + q.rotor_radius > q.guard_radius + SPARED
+            stands_out = np.hypot(x, y) + q.rotor_radius > q.guard_radius + GUARD_DEFLECTION
             assert (f"rotor_{j}_sphere" in shapes) == stands_out
     beam, shapes = found.vehicle.payload, shapes_of(found.lines, "payload")
     rod, _, turned = shapes.pop("beam")

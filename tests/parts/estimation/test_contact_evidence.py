@@ -23,8 +23,8 @@ from tandemlift.parts.estimation.contact_evidence import (
     BEAM,
     DOUBT_TIME,
     LEAST_DOUBT,
-    SHARP,
-    STEEP,
+    RISE_ANYWHERE,
+    RISE_AT_WALL,
     ContactDetector,
     Deviations,
     ForceBand,
@@ -52,7 +52,7 @@ GEOMETRY = TouchGeometry(
 )  # fmt: skip
 DETECTOR = ContactDetector(low_pass(100.0, DT), 0.5, 2.0, 3.0, GEOMETRY, PAIR(1.0, 2.0))
 NOWHERE = GuardMatch(PAIR(0.0, 0.0), Vec3(PAIR(0.0, 0.0), PAIR(0.0, 0.0), PAIR(0.0, 0.0)))
-STEEPLY = start_evidence(DETECTOR)._replace(steepest=1.01 * STEEP * STEEP)
+STEEPLY = start_evidence(DETECTOR)._replace(steepest=1.01 * RISE_ANYWHERE * RISE_ANYWHERE)
 FORCE = np.array([3.0, -4.0])
 NO_FORCE = np.zeros(2)
 
@@ -108,7 +108,7 @@ def test_doubt_and_joints_that_disagree_exclude_a_contact_but_not_one_at_a_known
 
 def test_a_beam_differs_from_a_hand_by_its_rise_and_less_is_enough_at_a_known_wall():
     beam, known = CAUSES["the beam"][0], BeamMatch(1.0, 0.2, Vec3(0.0, 0.05, 0.0))
-    for match, rise in ((UNMATCHED, STEEP), (known, SHARP)):
+    for match, rise in ((UNMATCHED, RISE_ANYWHERE), (known, RISE_AT_WALL)):
         for slope, part in ((0.99 * rise, 0.0), (1.01 * rise, BEAM)):
             risen = STEEPLY._replace(steepest=slope * slope)
             assert touching_part(DETECTOR, risen, beam, NOWHERE, match, 1.0) == part

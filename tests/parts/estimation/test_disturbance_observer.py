@@ -9,7 +9,7 @@ from scipy.signal import StateSpace, lsim
 import tandemlift as tl
 from tandemlift.core.low_pass import low_pass_step
 from tandemlift.core.vector import ZERO, Quat, Vec3, each, vec3
-from tandemlift.parts.estimation.disturbance_observer import correction, growth, observer_step, start_observer
+from tandemlift.parts.guidance.disturbance_observer import correction, growth, observer_step, start_observer
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.rotors.allocation import mixer_from

@@ -8,15 +8,15 @@ import tandemlift as tl
 from tandemlift.core.faults import FAULTS
 from tandemlift.missions import tables_of
 from tandemlift.missions.flight_checks import flight_checks
-from tandemlift.parts.contact.standing import FAR_DOWN, reference_warnings
+from tandemlift.parts.contact.standing import DISTANCE_BELOW, reference_warnings
 from tandemlift.parts.flight_checks.hover_loads import WindOnParts
 from tandemlift.parts.flight_checks.schedule_checks import Schedule
-from tandemlift.parts.flight_checks.sensing_checks import REMOVED, wind_after_tare
+from tandemlift.parts.flight_checks.sensing_checks import COMPENSATED_SHARE, wind_after_tare
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 
 @pytest.mark.parametrize(
-    ("above", "warns"), [(-0.5 * FAR_DOWN, False), (0.5 * FAR_DOWN, False), (2.0 * FAR_DOWN, True)]
+    ("above", "warns"), [(-0.5 * DISTANCE_BELOW, False), (0.5 * DISTANCE_BELOW, False), (2.0 * DISTANCE_BELOW, True)]
 )
 def test_a_landing_that_ends_far_above_where_the_vehicle_stands_is_warned_of(above, warns):
     phases = tl.load_mission("iris", {"phases.land_start": 40.0}).phases
@@ -66,7 +66,7 @@ def on_payload(velocity, compensation):
     return found
 
 
-@pytest.mark.parametrize(("axis", "left"), [(0, 1.0 - REMOVED), (2, 1.0)])
+@pytest.mark.parametrize(("axis", "left"), [(0, 1.0 - COMPENSATED_SHARE), (2, 1.0)])
 def test_the_compensation_takes_most_of_a_level_gust_and_nothing_of_a_vertical_one(axis, left):
     velocity = [6.0 * (i == axis) for i in range(3)]
     whole = on_payload(velocity, "none")

@@ -9,8 +9,8 @@ from tandemlift.core.low_pass import LowPassState
 from tandemlift.core.vector import ZERO, Absent, Vec3
 from tandemlift.parts.guidance.alternation import (
     CROSSOVER,
-    FORGOTTEN,
-    NOTICED,
+    FORGET_TIME,
+    NOTICE_TIME,
     alternation_step,
     calmed,
     force_curvature,
@@ -61,7 +61,7 @@ def test_a_triangle_is_noticed_by_the_means_of_its_rises_and_falls(limit):
         return (part - 0.5 * half) * rate * (-1) ** int(whole), rate * (-1) ** int(whole)
 
     _, _, m = followed(limit, triangle, 4.0)  # ends after a fall
-    grown, kept = np.exp(-half / NOTICED), np.exp(-half / FORGOTTEN)
+    grown, kept = np.exp(-half / NOTICE_TIME), np.exp(-half / FORGET_TIME)
     most = (rate - limit[0].least) * (1.0 - grown) / (1.0 - grown * kept)
     assert (m.falls.x, m.rises.x) == pytest.approx((most, most * kept), rel=0.02)
     assert mean_rate(m) == pytest.approx(2.0 * most * kept, rel=0.02)

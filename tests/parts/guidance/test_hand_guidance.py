@@ -10,7 +10,7 @@ from tandemlift.core.low_pass import LowPassState, low_pass_step
 from tandemlift.core.phases import GUIDED, IDLE, LAND, LIFT
 from tandemlift.core.trajectories import SmoothStep, Trajectory
 from tandemlift.core.vector import ZERO, Absent, Quat, Vec3, vec3
-from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
+from tandemlift.parts.guidance.disturbance_observer import DisturbanceEstimate
 from tandemlift.parts.guidance.guidance import PilotInput, guide
 from tandemlift.parts.guidance.hand_guidance import grounded_at, presses_on_ground, with_lift_and_landing
 from tandemlift.parts.guidance.phases import PhaseOutput

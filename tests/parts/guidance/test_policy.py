@@ -13,9 +13,9 @@ from tandemlift.parts.guidance.admittance import AdmittanceTable
 from tandemlift.parts.guidance.policy import (
     FORCE,
     INPUTS,
+    LEAST_FORCE,
     OUTPUTS,
     RATE,
-    SMALL,
     SPEED,
     PolicyTable,
     policy_damping,
@@ -64,7 +64,7 @@ def by_numpy(weights, x, units=UNITS, factor=4.0):
 def inputs_by_numpy(F, R, v):
     """The inputs of the network (n, 6) of pushes [N], their rates [N/s] and velocities [m/s] (n, 2)."""
     size = np.linalg.norm(F, axis=1)
-    e = F / (size + SMALL)[:, None]
+    e = F / (size + LEAST_FORCE)[:, None]
     across = np.column_stack([-e[:, 1], e[:, 0]])
     return np.column_stack(
         [
@@ -88,7 +88,7 @@ def test_factors_and_force_are_those_of_matrices():
         ((along, across),) = by_numpy(weights, inputs_by_numpy(F, R, flat_v))
         eased, channels = policy_damping(policy, push, v, 1.0)
         assert channels == pytest.approx((along, across), rel=1e-10)
-        e, root = F[0] / (np.linalg.norm(F) + SMALL), np.sqrt(DAMPING[:2])
+        e, root = F[0] / (np.linalg.norm(F) + LEAST_FORCE), np.sqrt(DAMPING[:2])
         D = across * np.diag(DAMPING[:2]) + (along - across) * np.outer(root * e, root * e)
         assert eased == pytest.approx([*((np.diag(DAMPING[:2]) - D) @ flat_v[0]), 0.0], abs=1e-10)
 

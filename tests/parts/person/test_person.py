@@ -49,7 +49,7 @@ def company(model: str, path: Any = ((5.0, 0.0),), **changes: Any) -> tuple[Any,
     points = [p if isinstance(p, dict) else {"point": list(p)} for p in path]
     keys = {f"person.{k}": v for k, v in {"model": model, "path": points, "height_fraction": 0.0, **changes}.items()}
     mission = tl.load_mission("hover", keys)
-    vehicle, state = Vehicle.from_settings(mission.vehicle), start_state(mission)
+    vehicle, state = Vehicle.from_settings(mission.vehicle), start_state(mission.initial)
     walk = Walk(mission.person.path, state, mission.initial.euler[2], mission.phases.height)
     person, memory = start_person(mission.person, vehicle, mission.mission.step, walk)
     return person, memory, path_legs_from(mission.person, person, walk)

@@ -12,8 +12,7 @@ from PIL import Image
 
 import tandemlift as tl
 from tandemlift.apps.cli.export import render as command
-from tandemlift.engines.models.camera import camera_of
-from tandemlift.engines.models.visuals import SUN
+from tandemlift.engines.models.visuals import SUN, camera_of
 from tandemlift.pictures.drawing import studio
 from tandemlift.pictures.drawing.film import Animation, Film, Shot, _smoothed, look_at, picture, render
 from tandemlift.pictures.drawing.ground import HAZE, grid, rgb, shadow_on

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.flight.printed_summary import summary_lines
 from tandemlift.flight.record import counted_until
 from tandemlift.pictures.figures.registry import figures_for
 from tandemlift.pictures.report.flight_report import write_report
+from tandemlift.pictures.report.printed_summary import summary_lines
 
 FALL = {"disturbance.moment": [0.0, 20.0, 0.0], "actuators.model": "rotors", "mission.duration": 4.0}
 

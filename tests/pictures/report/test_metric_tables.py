@@ -13,8 +13,8 @@ from patience import completed
 from small_studies import made_up
 
 import tandemlift as tl
+from tandemlift.analysis.studies.metric_descriptions import metric_of
 from tandemlift.analysis.studies.study_rows import StudyRows
-from tandemlift.flight.metric_descriptions import metric_of
 from tandemlift.pictures.report.metric_tables import (
     LISTS,
     latex_number,

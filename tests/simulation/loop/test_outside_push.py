@@ -10,8 +10,8 @@ import tandemlift as tl
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.engines.mujoco import MuJoCoBody
 from tandemlift.engines.registry import ENGINES, Engine
-from tandemlift.flight.printed_summary import summary_lines
 from tandemlift.missions import changed
+from tandemlift.pictures.report.printed_summary import summary_lines
 
 DT, FIRST, LAST = 1e-3, 13_000, 15_000
 FORCE, POINT = np.array([2.0, 0.0, 0.0]), np.array([0.0, 0.5, 0.0])

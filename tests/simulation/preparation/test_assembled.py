@@ -10,6 +10,7 @@ import tandemlift as tl
 from tandemlift.compiler.tracer import TraceError
 from tandemlift.core.caching import LastUsed
 from tandemlift.core.vector import ZERO, Vec3
+from tandemlift.missions.facts import Facts
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.simulation import plan
 from tandemlift.simulation.plan import FlightPlan
@@ -46,7 +47,7 @@ def test_whose_law_changes_the_layout_is_named():
 
 def limits(**changes):
     mission = tl.load_mission("iris", {key.replace("__", "."): value for key, value in changes.items()})
-    return finding_limits_from(mission)
+    return Facts(mission).call(finding_limits_from)
 
 
 def test_an_axis_owes_the_speed_of_its_damping_and_none_with_a_spring_or_without_damping():

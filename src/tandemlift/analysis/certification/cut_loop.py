@@ -24,7 +24,6 @@ from tandemlift.analysis.certification.sector_bound import (
     response,
     without_resting_modes,
 )
-from tandemlift.analysis.certification.thrust_bounds import OFFSETS, REACHING, SURFACE, rotor_axes, switching_slopes
 from tandemlift.analysis.linearization.linear_model import Variable, connecting_states
 from tandemlift.analysis.linearization.linearize import linearization_plan
 from tandemlift.analysis.linearization.loop_margins import AXES, calm_mission
@@ -34,6 +33,7 @@ from tandemlift.analysis.linearization.period import differentiate
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission
+from tandemlift.parts.pilot.commanded_thrusts import OFFSETS, REACHING, SURFACE, rotor_axes, switching_slopes
 from tandemlift.simulation.pilot_api import pilot_at_start
 
 SURFACES = tuple(f"surface {axis}" for axis in ("x", "y", "z", "roll", "pitch", "yaw"))

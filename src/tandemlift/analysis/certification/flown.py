@@ -20,8 +20,9 @@ from tandemlift.analysis.linearization.loop_margins import UNROUNDED, calm_missi
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array
+from tandemlift.flight.record import Flight
 from tandemlift.missions import HoverFacts, Mission, PersonTable, check, format_toml, merge, tables_of
-from tandemlift.simulation.fly import Flight, fly_many
+from tandemlift.simulation.fly import fly_many
 
 LEAST, MOST, COARSE, FINE = 0.5, 1.6, 16, 12  # factors of the predicted limit; flights that look for the limit
 PUSH, LASTS = 0.25, 0.1  # N along each axis at the nominal mass, s of its Gaussian: below the thresholds of a push

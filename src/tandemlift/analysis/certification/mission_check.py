@@ -21,8 +21,7 @@ from tandemlift.analysis.linearization.loop_margins import (
 )
 from tandemlift.core.errors import CLOSE, FAILS, REFUSED, CheckResult, InputError, judged, noted
 from tandemlift.missions import MissionLike, mission_of
-from tandemlift.missions.checks import mission_checks
-from tandemlift.missions.flight_checks import FlightCheck
+from tandemlift.missions.checks import FlightCheck, mission_checks
 
 NEAR_PHASE = 1.0 / 6.0  # of 180 deg: less than 30 deg of phase left is close
 NEAR_GAIN = 0.4  # a gain that may grow by less than a factor of 1.7, or fall by less, is close

@@ -16,11 +16,11 @@ from tandemlift.analysis.certification.claims import Claim, FlownLimit, Tier
 from tandemlift.analysis.certification.cut_loop import DISTURBED, SURFACES, CutLoop, loop_of, parts_of
 from tandemlift.analysis.certification.intervals import bounds
 from tandemlift.analysis.certification.sector_bound import LoopPart, Sectors, Start, region_of, solvers, tolerated
-from tandemlift.analysis.certification.thrust_bounds import RotorAxes, commanded_thrusts, disturb, rotor_axes
 from tandemlift.analysis.linearization.loop_margins import AXES, bisected, calm_mission
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, check, tables_of
+from tandemlift.parts.pilot.commanded_thrusts import RotorAxes, commanded_thrusts, disturb, rotor_axes
 from tandemlift.simulation.pilot_api import PilotData, pilot_at_start
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.stepping import Stepper

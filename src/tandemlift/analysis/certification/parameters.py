@@ -7,8 +7,7 @@ from typing import Any, NamedTuple
 
 from tandemlift.analysis.linearization.loop_margins import AXES, rotor_delay_and_lag, rotors_of
 from tandemlift.core.errors import unknown
-from tandemlift.missions import Mission, check, tables_of
-from tandemlift.missions.changes import changed_tables
+from tandemlift.missions import Mission, changed_tables, check, tables_of
 
 ARM = "arm stiffness"
 LIFTED = 1.0 - 1e-9  # of the mass that the rotors lift: rounding refuses no mission

@@ -19,8 +19,9 @@ from tandemlift.analysis.certification.parameters import with_keys
 from tandemlift.core.errors import CLOSE, FAILS, CheckResult, judged
 from tandemlift.core.phases import FAILURES
 from tandemlift.core.types import Array
+from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, format_toml, tables_of
-from tandemlift.simulation.fly import Flight, fly_many
+from tandemlift.simulation.fly import fly_many
 
 AXES = "xyz"
 FREQUENCIES = (0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.5, 8.0, 10.0)  # Hz

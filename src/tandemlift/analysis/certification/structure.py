@@ -10,7 +10,7 @@ from tandemlift.analysis.linearization.linear_model import Mode, modes_of
 from tandemlift.analysis.linearization.linearize import linearize
 from tandemlift.analysis.linearization.loop_margins import LIFT, NO_KINK, SETTLED, calm_mission
 from tandemlift.core.errors import CheckResult, judged
-from tandemlift.missions.mission import Mission
+from tandemlift.missions import Mission
 from tandemlift.parts.mechanics.structure import kept_modes, mode_in_words
 
 SHAPE = re.compile(r"shape\.(?:coordinates|rates)\.n(\d+)")

@@ -20,10 +20,10 @@ from tandemlift.analysis.identification.sensor_errors import (
     residuals,
     robust_sd,
 )
+from tandemlift.analysis.identification.vehicle_unknowns import Unknowns
 from tandemlift.analysis.identification.windows import FlightWindows, Places, Samples, Truths
 from tandemlift.analysis.logs.log import JOINTS
 from tandemlift.core.types import Array
-from tandemlift.engines.vehicle_unknowns import Unknowns
 
 HUBER = 3.0
 ROUGH, ROBUST, CAREFUL = range(3)  # Huber's weights: of beginnings, by their own spread; of all; none beyond `ABSURD`

@@ -32,8 +32,9 @@ from tandemlift.analysis.identification.identification import Row
 from tandemlift.analysis.identification.identify import identify
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.types import GRAVITY, Array
+from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, MissionLike, built_in, check, format_toml, load_mission, mission_of, tables_of
-from tandemlift.simulation.fly import Flight, fly
+from tandemlift.simulation.fly import fly
 
 LOWEST, HIGHEST, LINES = 0.2, 6.0, 10  # Hz; candidates of each axis
 RAMP, PERIODS, SETTLES = 2.0, 3.0, 2.0  # s; of the lowest line, at least; s before and after the excitation

@@ -23,15 +23,22 @@ from tandemlift.analysis.identification.judgement import (
 )
 from tandemlift.analysis.identification.prediction import Predictor
 from tandemlift.analysis.identification.sensor_errors import sensor_priors
+from tandemlift.analysis.identification.vehicle_unknowns import (
+    AXES,
+    DEFAULT,
+    INERTIAS,
+    Unknowns,
+    driven_numbers,
+    unknowns_of,
+)
 from tandemlift.analysis.identification.windows import FEWEST, LENGTH, FlightWindows, windows_of
 from tandemlift.analysis.logs.log import Log, log_of
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Array, Progress, flat
 from tandemlift.engines.driven_vehicle import whole_vehicle
-from tandemlift.engines.vehicle_unknowns import AXES, DEFAULT, INERTIAS, Unknowns, driven_numbers, unknowns_of
+from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, MissionLike, VehicleTable, mission_of
-from tandemlift.simulation.fly import Flight
 
 HELD_BACK = 0.15  # of the windows
 SHOWN = 100  # blocks of the example
@@ -59,8 +66,8 @@ def identify(
     Args:
         logs: one or several, from `read_log`, or flights with sensors.
         mission: of about such a vehicle: from `load_mission`, or its name or path.
-        parameters: keys to estimate, of `engines.vehicle_unknowns.KINDS`; all by default, of areas only where the
-            mission's wind is "air" and none is 0.
+        parameters: keys to estimate, of `vehicle_unknowns.KINDS` beside this module; all by default, of areas only
+            where the mission's wind is "air" and none is 0.
         weighed: masses [kg] from a scale, right within 0.1 %, by key. Without joint sensors of known scale, or such a
             mass, only ratios of masses to thrust constants can be told.
         window: length of a window [s].

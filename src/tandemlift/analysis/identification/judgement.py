@@ -19,8 +19,8 @@ from tandemlift.analysis.identification.fit import VehicleSearch
 from tandemlift.analysis.identification.identification import Row
 from tandemlift.analysis.identification.prediction import STARTS
 from tandemlift.analysis.identification.sensor_errors import SensorPriors
+from tandemlift.analysis.identification.vehicle_unknowns import Unknowns
 from tandemlift.core.types import Array
-from tandemlift.engines.vehicle_unknowns import Unknowns
 
 LAGS = 20  # blocks
 ALIKE, MOST_PAIRS = 0.95, 4  # correlation of the errors of two keys; pairs that are named

@@ -11,23 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tandemlift.analysis.identification.vehicle_unknowns import DrivenNumbers, Unknowns
 from tandemlift.analysis.identification.windows import FlightWindows, Places
 from tandemlift.analysis.logs.log import JOINTS, conjugate, quaternion_product
-from tandemlift.compiler.machine_code.series import Series
-from tandemlift.core.caching import LastUsed
 from tandemlift.core.types import Array, flat
-from tandemlift.core.vector import ZERO, Vec3, each
-from tandemlift.engines.driven_vehicle import (
-    AT_REST,
-    DrivenBody,
-    DrivenInputs,
-    DrivenRotor,
-    VehicleNumbers,
-    driven_body,
-    driven_step,
-    rotor_step,
-)
-from tandemlift.engines.vehicle_unknowns import DrivenNumbers, Unknowns
+from tandemlift.engines.driven_vehicle import DrivenModels, driven_models
 from tandemlift.missions import Mission
 
 STARTS = 12  # of a window: position, velocity, a turn about body axes, rates
@@ -42,24 +30,6 @@ OUTPUTS = (  # of `driven_step`, in its order
 )
 FORCES = OUTPUTS[4:]  # predicted as means over a block
 ALWAYS = ("measured_attitude",)
-_models = LastUsed["Models"](4)
-
-
-class StepNumbers(NamedTuple):
-    """The parameters of a step: the vehicle, the point that the motion measurement follows, the step's length [s]."""
-
-    vehicle: VehicleNumbers
-    point: Vec3
-    step: float
-
-
-class Models(NamedTuple):
-    """Rotors and body as machine code, without and with tangents."""
-
-    rotors: Series
-    rotor_tangents: Series
-    body: Series
-    body_tangents: Series
 
 
 class PredictedDerivatives(NamedTuple):
@@ -98,21 +68,9 @@ class Predictor:
     mission: Mission
 
     @property
-    def models(self) -> Models:
-        """The machine code for this geometry; made once in a process."""
-        vehicle, floor, wind = self.mission.vehicle, self.windows.floor, self.mission.wind
-
-        def body(p: StepNumbers) -> DrivenBody:
-            return driven_body(vehicle, floor, wind, p.vehicle, p.point, p.step)
-
-        def compiled() -> Models:
-            N = self.joints
-            none = DrivenInputs(each(4 * N)(*(0.0,) * (4 * N)), ZERO, ZERO)
-            of_body = body, driven_step, StepNumbers(self.unknowns.start.vehicle, ZERO, 0.0), AT_REST, none
-            of_rotor = (lambda step: step), rotor_step, 0.0, DrivenRotor(0.0, 0.0, 0.0), 0.0
-            return Models(*[Series(*own, differentiated=d) for own in (of_rotor, of_body) for d in (False, True)])
-
-        return _models.of((vehicle.model_dump_json(), floor, wind.model_dump_json()), compiled)
+    def models(self) -> DrivenModels:
+        """The machine code for this geometry."""
+        return driven_models(self.mission.vehicle, self.windows.floor, self.mission.wind)
 
     @property
     def joints(self) -> int:

@@ -33,8 +33,8 @@ from tandemlift.analysis.logs.log import (
 )
 from tandemlift.core.errors import FlightWarning, InputError
 from tandemlift.core.types import Array, Progress, flat, leaves, unflat
+from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, MissionLike, check, merge, mission_of, tables_of
-from tandemlift.simulation.fly import Flight
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import SampleChannels, flight_of
 from tandemlift.simulation.stepping import Stepper, fly_stepwise

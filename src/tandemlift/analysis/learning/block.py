@@ -9,7 +9,6 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tandemlift.analysis.learning.block_memory import BlockOfFlights, EndedFlights
 from tandemlift.analysis.learning.block_readings import BlockReadings
 from tandemlift.analysis.learning.lanes import (
     Keys,
@@ -22,10 +21,10 @@ from tandemlift.analysis.learning.lanes import (
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array, flat, leaves
 from tandemlift.missions import MissionLike, mission_of, with_precision
-from tandemlift.simulation.caller_values import checked_seed, count_of, held_inputs
 from tandemlift.simulation.preparation import leaf_offset
-from tandemlift.simulation.preparation.memory import NEVER
+from tandemlift.simulation.preparation.block_memory import NEVER, BlockOfFlights, EndedFlights
 from tandemlift.simulation.results import SampleChannels
+from tandemlift.simulation.simulation import checked_seed, count_of, held_inputs
 
 Actions = Literal["push", "thrusts", "velocity"]
 RUNWAYS = (8, 64)  # numbers of flights that fly together to where they are handed over

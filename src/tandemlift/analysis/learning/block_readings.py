@@ -7,15 +7,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.analysis.learning.block_memory import BlockOfFlights, EndedFlights
 from tandemlift.analysis.learning.lanes import Lanes, lane_numbers
 from tandemlift.core.findings import Finding
 from tandemlift.core.types import Array, leaves, unflat
 from tandemlift.missions import Mission
-from tandemlift.simulation.findings import findings_of
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import LeafSpan, leaf_offset
-from tandemlift.simulation.results import RawResult, SampleChannels, metrics_of
+from tandemlift.simulation.preparation.block_memory import BlockOfFlights, EndedFlights
+from tandemlift.simulation.results import RawResult, SampleChannels, findings_from, metrics_of
 
 
 class BlockReadings:
@@ -116,7 +115,7 @@ class BlockReadings:
             InputError: there is no such lane.
         """
         plan, flown = self._flown(lane)
-        return findings_of(plan, flown.flight_state, flown.step, metrics_of(plan, flown)["outcome"])
+        return findings_from(plan, flown)
 
     def _flown(self, lane: int) -> tuple[FlightPlan, RawResult]:
         (lane,) = lane_numbers(int(lane), self.lanes)

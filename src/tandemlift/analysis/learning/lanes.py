@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission, MissionTemplate
-from tandemlift.simulation.caller_values import checked_seed
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import FlightStart
+from tandemlift.simulation.simulation import checked_seed
 
 Keys = Mapping[str, Any]
 

@@ -13,9 +13,8 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
+from tandemlift.compiler.machine_code.derivatives import OPERATIONS, PARTIALS, smooth_arguments
 from tandemlift.compiler.tracer import LEAVES, Graph
-from tandemlift.compiler.tracer.differentiation import PARTIALS, smooth_arguments
-from tandemlift.compiler.tracer.valued_graph import OPERATIONS
 from tandemlift.core.types import Array
 
 ROUNDED = 1e-9  # relative, of values that are equal

@@ -26,8 +26,7 @@ from tandemlift.core.errors import InputError, shown, unknown
 from tandemlift.core.types import Array, flat, unflat
 from tandemlift.core.vector import Absent, Quat
 from tandemlift.missions import MissionLike, mission_of
-from tandemlift.parts.mechanics.push import push_moment
-from tandemlift.parts.rotors.rotor_lag import by_direction
+from tandemlift.simulation.graphs import by_direction, push_moment
 from tandemlift.simulation.preparation import leaf_offset
 from tandemlift.simulation.simulation import Simulation
 
@@ -211,10 +210,10 @@ def _inputs_at(r: LinearizationPlan, made: PeriodDerivative) -> Array:
     plan, t = r.point.plan, r.point.k * r.point.plan.dt
     thrusts = made.steps[0].nodes.values_of(r.graph.thrusts)
     known: dict[str, Any] = {"fly": r.point.numbers, "thrust": thrusts, "offset": np.zeros_like(thrusts)}
-    known |= given_at(plan.tables, t, plan.dt)
+    known |= given_at(plan, t)
     mean = leaf_offset(plan.model, "wind", "velocity")  # the turbulence is a state
     known["gust"] = np.add(r.point.numbers[mean.at : mean.at + mean.size], known["gust"][: mean.size])
-    moment = push_moment(push_sum(plan.tables, t), _attitude(r.point))
+    moment = push_moment(push_sum(plan, t), _attitude(r.point))
     values = []
     for (name, _), ((kind, i, _), *_) in r.inputs:
         values.append(getattr(moment, name[-1]) if name.startswith("push_moment") else known[kind][i])

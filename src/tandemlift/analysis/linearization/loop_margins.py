@@ -22,9 +22,7 @@ from tandemlift.analysis.linearization.linear_model import LinearModel
 from tandemlift.analysis.linearization.linearize import linearize
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
-from tandemlift.missions import Mission, check, tables_of
-from tandemlift.missions.mission import PARTS
-from tandemlift.parts.rotors.hover import HoverFacts
+from tandemlift.missions import RESTLESS, HoverFacts, Mission, check, tables_of
 
 AXES = ("z", "roll", "pitch", "yaw")
 LOWEST, HIGHEST, POINTS = 0.1, 3000.0, 240  # rad/s
@@ -32,7 +30,7 @@ LIFT, SETTLED = 4.0, 2.0  # s, of the calm flight's lift, and after it and after
 WAITS = (0.0, 20.0)  # s, in addition, for a vehicle that settles slowly
 REMOVED = (
     *("pushes", "requests", "changes", "faults", "sensor_faults", "walls"),
-    *("corridor", *(part.key for part in PARTS if part.begins or not part.calm)),
+    *("corridor", *RESTLESS),
 )
 NO_KINK = -1.0  # a distance: disables the search for kinks
 ON_CIRCLE = 1e-6  # beyond 1, of an eigenvalue that does not grow

@@ -12,13 +12,11 @@ from tandemlift.analysis.linearization.step_graph import NO_PUSH
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.types import flat, leaves, unflat
 from tandemlift.core.vector import Absent, Quat
-from tandemlift.flight.channels import channel_of
-from tandemlift.flight.data_frames import column_names
-from tandemlift.parts.mechanics.push import PointPush, PushSamples, push_at
+from tandemlift.flight.channels import channel_of, column_names
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.parts.mechanics.wind import gust_velocity
+from tandemlift.simulation.graphs import PointPush, PushSamples, gust_velocity, push_at
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.preparation import GAUSSIAN, GUST, InputTables, leaf_offset
+from tandemlift.simulation.preparation import GAUSSIAN, GUST, leaf_offset
 from tandemlift.simulation.results import channels_of
 
 LOOP = ("push_force", "push_moment", "disturbance_force", "disturbance_moment", "wind_velocity")
@@ -97,18 +95,18 @@ def _spread_of_moment(i: int, attitude: Quat) -> list[float]:
     return (R @ cross).ravel().tolist()
 
 
-def given_at(tables: InputTables, t: float, dt: float) -> dict[str, list[float]]:
+def given_at(p: FlightPlan, t: float) -> dict[str, list[float]]:
     """The mission's pushes and gusts over the step from time t [s], and its time."""
-    times = (t, t + 0.5 * dt, t + dt)
-    gust = sum((np.array(flat(gust_velocity(unflat(row, GUST), t))) for row in tables.gusts), np.zeros(3))
-    hand = PushSamples(*[push_sum(tables, when) for when in times])
-    return {"hand": flat(hand), "gust": gust.tolist(), "t": [t], "dt": [dt]}
+    times = (t, t + 0.5 * p.dt, t + p.dt)
+    gust = sum((np.array(flat(gust_velocity(unflat(row, GUST), t))) for row in p.tables.gusts), np.zeros(3))
+    hand = PushSamples(*[push_sum(p, when) for when in times])
+    return {"hand": flat(hand), "gust": gust.tolist(), "t": [t], "dt": [p.dt]}
 
 
-def push_sum(tables: InputTables, t: float) -> PointPush:
+def push_sum(p: FlightPlan, t: float) -> PointPush:
     """The sum of the mission's pushes at a time [s]."""
     total: PointPush = NO_PUSH
-    for row in tables.pushes:
+    for row in p.tables.pushes:
         total = total + push_at(NO_PUSH, unflat(row, GAUSSIAN), t)
     return total
 

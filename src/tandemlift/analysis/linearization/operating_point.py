@@ -11,11 +11,8 @@ import numpy as np
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.types import Array, flat
 from tandemlift.core.vector import Absent
-from tandemlift.missions import Mission
-from tandemlift.missions.facts import Facts
-from tandemlift.missions.mission import PARTS, MissionTable
-from tandemlift.parts.mechanics.push import SUPPORT
-from tandemlift.parts.rotors.rotor_lag import lag
+from tandemlift.missions import Mission, MissionTable, calm_time
+from tandemlift.simulation.graphs import lag
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import leaf_offset
 from tandemlift.simulation.simulation import Simulation
@@ -42,19 +39,6 @@ class OperatingPoint(NamedTuple):
     ring: Array
     external: Sequence[float] = ()
     sample: Array = np.zeros(0)
-
-
-def calm_time(mission: Mission) -> float:
-    """The default time [s] of a flight that is tared: the end of the first calm after the lift.
-
-    This is before the first push, fault, excitation or landing and before a person begins; else the mission's end.
-    """
-    phases, facts, end = mission.phases, Facts(mission), mission.mission.duration
-    ends = [push.time - SUPPORT * push.sigma for push in mission.pushes] + [fault.time for fault in mission.faults]
-    ends += [] if phases.land_start is None else [phases.land_start]
-    ends += [facts.ask(part, part.begins) for part in PARTS if part.begins and facts.has(part)]
-    hovers = phases.lift_start + phases.lift_duration
-    return max(min([end, *(calm for calm in ends if calm > hovers)]), 0.0)
 
 
 def tare_left(p: FlightPlan, numbers: Array, t: float) -> float:

@@ -15,9 +15,8 @@ from tandemlift.analysis.linearization.operating_point import OperatingPoint
 from tandemlift.analysis.linearization.step_derivative import StepDerivative, StepSeeds
 from tandemlift.analysis.linearization.step_graph import StateChoice, StepGraph
 from tandemlift.core.types import Array, leaves
+from tandemlift.simulation.graphs import COMMAND_LINE
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.preparation import delayed_spans
-from tandemlift.simulation.preparation.step_end import COMMAND_LINE
 
 
 class DelayedNumber(NamedTuple):
@@ -34,7 +33,7 @@ class DelayedNumber(NamedTuple):
 def delayed_numbers(p: FlightPlan) -> list[DelayedNumber]:
     """The delayed numbers of a flight, in the order of a row of the delay lines."""
     found, column = list[DelayedNumber](), 0
-    for line, (at, size) in enumerate(delayed_spans(p.model)):
+    for line, (at, size) in enumerate(p.loop_code.delayed):
         steps = int(p.delays[line]) if size else 0
         under_way = max(steps - 1, 0) if line == COMMAND_LINE else steps  # a command acts in its own step
         found += [DelayedNumber(at + i, column + i, under_way) for i in range(size)]
@@ -124,7 +123,7 @@ class _Lines:
 def step_inputs(r: LinearizationPlan, numbers: Array, step: int) -> StepSeeds:
     """The inputs of a step of the period, with a seed for each state but those under way, and for each input."""
     p, kept = r.point.plan, r.choice.kept
-    given = given_at(p.tables, (r.point.k + step) * p.dt, p.dt)
+    given = given_at(p, (r.point.k + step) * p.dt)
     given["noise"] = [0.0] * leaves(p.given.noise)
     given["external"] = [*r.point.external] or [0.0] * leaves(p.given.external)
     eye = np.eye(len(kept) + len(r.inputs))

@@ -11,8 +11,7 @@ from tandemlift.analysis.linearization.derivative import Derivative, Row, Sides
 from tandemlift.analysis.linearization.step_graph import StepGraph
 from tandemlift.compiler.tracer import Symbol
 from tandemlift.core.types import Array
-from tandemlift.parts.rotors.normal_equations import GAMMA
-from tandemlift.simulation.preparation.limit_solver import LimitProblem, TracedSolver
+from tandemlift.simulation.graphs import GAMMA, LimitProblem, TracedSolver
 
 REFINED = 2  # further steps at the active set, in which the derivative loses the error of a long step
 MADE = ("moved", "solved")  # inputs that are made within the step

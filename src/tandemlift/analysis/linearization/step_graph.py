@@ -11,15 +11,12 @@ from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from tandemlift.compiler.tracer.differentiation import smooth_arguments
-from tandemlift.core.caching import LastUsed
+from tandemlift.compiler.machine_code.derivatives import smooth_arguments
 from tandemlift.core.types import is_value, leaves
 from tandemlift.core.vector import ZERO, Mat3
-from tandemlift.parts.mechanics.push import PointPush, PushSamples
+from tandemlift.simulation.graphs import LastUsed, PointPush, PushSamples, TracedStep, templates_from
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import leaf_offset
-from tandemlift.simulation.preparation.templates import templates_from
-from tandemlift.simulation.preparation.traced_step import TracedStep
 
 NO_PUSH = PointPush(ZERO, Mat3(ZERO, ZERO, ZERO))
 CONSTANT, DISCRETE = "never changes", "a flag, a counter or a mode"

@@ -13,7 +13,7 @@ from tandemlift.analysis.logs.log import MOTION, stream_channel
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.files import toml_tables
 from tandemlift.core.keys import Table
-from tandemlift.missions.refusals import problems_in
+from tandemlift.missions import problems_in
 
 DEGREE, STANDARD_GRAVITY = math.pi / 180.0, 9.80665  # m/s² of the unit g, by definition
 POUND, INCH, FOOT = 4.4482216152605, 0.0254, 0.3048  # N of the unit lbf, m

@@ -18,6 +18,7 @@ import numpy as np
 
 from tandemlift.analysis.studies.benchmark_columns import TABLES, Row, Scores
 from tandemlift.analysis.studies.benchmark_entry import KINDS, BenchmarkEntry, Kind, baselines
+from tandemlift.analysis.studies.corridor_score import score_of
 from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution.flying import fly_each
@@ -25,7 +26,6 @@ from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.files import DATA
 from tandemlift.core.plugs import error_text
 from tandemlift.core.types import Array, Progress
-from tandemlift.flight.corridor_score import score_of
 from tandemlift.flight.record import Flight, moment_of
 
 AT_ONCE = 4  # flights in memory

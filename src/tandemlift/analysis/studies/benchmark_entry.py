@@ -11,7 +11,7 @@ from typing import Any, Literal, NamedTuple, get_args
 import numpy as np
 
 from tandemlift.core.errors import InputError
-from tandemlift.core.plugs import file_text, run_text
+from tandemlift.core.plugs import run_file
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission
 from tandemlift.parts.controllers import CONTROLLERS
@@ -85,7 +85,7 @@ def entry_of(file: Path) -> BenchmarkEntry:
         return _policy(file)
     if file.suffix != ".py":
         raise InputError(f"{file}: {WHAT}")
-    loaded = run_text(file_text(file, "file"), file.resolve(), "file")
+    loaded = run_file(file, "file")
     function = vars(loaded.module).get("observer")
     laws = {name: kind for kind, name, _ in loaded.entries if kind in ("controller", "observer")}
     found = [f"the {kind} {name!r}" for name, kind in laws.items()] + ["an observer"] * callable(function)

@@ -24,8 +24,7 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.plugs import explained
 from tandemlift.core.types import Progress
 from tandemlift.flight.record import Flight
-from tandemlift.missions import Mission, load_mission
-from tandemlift.missions.loading import MissionTemplate
+from tandemlift.missions import Mission, MissionTemplate, load_mission
 from tandemlift.parts.controllers import CONTROLLERS, Controller, controller
 
 

@@ -10,8 +10,8 @@ from tandemlift.analysis.studies.closed_form import YAW, AxisFeel, axes_of
 from tandemlift.core.errors import FAILS, CheckResult, judged
 from tandemlift.core.types import GRAVITY, LN_20
 from tandemlift.missions import HoverFacts, Mission, MissionLike, mission_of
-from tandemlift.missions.flight_checks import flight_checks
-from tandemlift.parts.controllers.interface import tilt_limit_of
+from tandemlift.missions.checks import flight_checks
+from tandemlift.parts.controllers import tilt_limit_of
 
 DRIFT_SIGMAS = 2.0  # standard deviations of the sensors' drift
 SENSING, NOISE, PASSAGE = ("wind on the payload", "noise", "sampling"), "noise", "passage"  # of `flight_checks`

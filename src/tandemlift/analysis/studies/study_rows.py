@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from tandemlift.analysis.studies.chunk_files import floats_of
 from tandemlift.analysis.studies.design.settings import REFUSED
+from tandemlift.analysis.studies.metric_descriptions import METRICS
 from tandemlift.analysis.studies.table import BAD, Study
 from tandemlift.core.errors import unknown
 from tandemlift.core.types import Array
-from tandemlift.flight.metric_descriptions import METRICS
 
 if TYPE_CHECKING:
     import pyarrow

@@ -113,10 +113,10 @@ def shipped_text() -> str | None:
 
 def formed_words() -> Words:
     """The words as the package defines them; a key of a list of tables has its entry 0."""
+    from tandemlift.analysis.studies.metric_descriptions import METRIC_GROUPS
     from tandemlift.apps.cli.new_mission import quadrotor_models
     from tandemlift.codegen.mission_module import TARGETS
     from tandemlift.engines.registry import ENGINES
-    from tandemlift.flight.metric_descriptions import METRIC_GROUPS
     from tandemlift.missions import built_in
     from tandemlift.missions.key_descriptions import sections
     from tandemlift.parts.controllers import CONTROLLERS

@@ -18,10 +18,10 @@ from tandemlift.core.files import FLIGHT_FILE, parse_setting
 from tandemlift.pictures.drawing.figure import STYLES, figure_style
 
 if TYPE_CHECKING:
-    from tandemlift.codegen.known_flights import KnownFile
     from tandemlift.flight.record import Flight
     from tandemlift.missions import Mission
     from tandemlift.parts.controllers import Controller
+    from tandemlift.simulation.known_flights import KnownFile
 
 DRAWINGS = (".png", ".pdf", ".svg")  # endings of a figure on its own
 HTML = (".html", ".htm")

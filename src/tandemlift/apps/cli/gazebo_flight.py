@@ -2,48 +2,19 @@
 
 from __future__ import annotations
 
-import os
-import shutil
 import signal
-import socket
-import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
-from pathlib import Path
 
 from tandemlift import Flight
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Progress
-from tandemlift.engines.gazebo import CHECKS, PORT, REAL_TIME, world_from
-from tandemlift.engines.gazebo_server import (
-    GazeboServer,
-    free_port,
-    root,
-    shell_command,
-    shell_command_for_user,
-    with_gazebo_environment,
-)
+from tandemlift.engines.gazebo import root, running_gazebo, shell_command_for_user
 from tandemlift.missions import Mission
 from tandemlift.simulation.fly import fly
 from tandemlift.simulation.recorded_flight import RecordedFlight
-
-
-@contextmanager
-def _joined(port: int, check: Callable[[], None], *, real_time: bool) -> Iterator[None]:
-    """A context in which engine `gazebo` joins the server at a port."""
-    before = {name: os.environ.get(name) for name in (PORT, REAL_TIME)}
-    CHECKS[port] = check
-    os.environ |= {PORT: str(port), REAL_TIME: str(int(real_time))}
-    try:
-        yield
-    finally:
-        del CHECKS[port]
-        for name, value in before.items():
-            os.environ.pop(name)
-            if value is not None:
-                os.environ[name] = value
 
 
 def gazebo_sentence() -> str:
@@ -54,39 +25,6 @@ def gazebo_sentence() -> str:
     except InputError:
         return f"{how}. Gazebo is not installed on the machine that made this report."
     return f"{how}. Gazebo is installed on the machine that made this report, which flew the compiled engine."
-
-
-def has_display() -> bool:
-    """Whether there is a screen for a window."""
-    return bool(os.environ.get("DISPLAY"))
-
-
-@contextmanager
-def _window(master: str) -> Iterator[None]:
-    """Gazebo's window on a server, while the context is open."""
-    if not has_display():
-        raise InputError("Gazebo's window needs a display: DISPLAY is not set")
-    inside, allowed = root(), Path(os.environ.get("XAUTHORITY", Path.home() / ".Xauthority"))
-    with ExitStack() as closing:
-        if inside and allowed.is_file():  # the display's cookie must be inside the root
-            cookie = inside / "tmp" / f"tandemlift-{os.getpid()}.cookie"
-            shutil.copy(allowed, cookie)
-            closing.callback(cookie.unlink)
-            allowed = Path("/tmp") / cookie.name
-        show = f"export DISPLAY={os.environ['DISPLAY']} XAUTHORITY={allowed}; exec gzclient"
-        quiet = subprocess.DEVNULL
-        client = subprocess.Popen(
-            shell_command(inside, with_gazebo_environment(master, show)),
-            stdin=quiet,
-            stdout=quiet,
-            stderr=quiet,
-            start_new_session=True,
-        )
-        try:
-            yield
-        finally:
-            client.kill()
-            client.wait()
 
 
 @contextmanager
@@ -115,7 +53,7 @@ def fly_in_gazebo(
     Raises:
         InputError: there is no Gazebo, or no display for the window.
     """
-    flown, port = interactive_mission(mission) if by_hand else mission, free_port(socket.SOCK_DGRAM)
+    flown = interactive_mission(mission) if by_hand else mission
 
     def begun(master: str) -> None:
         push = """gz topic -p /gazebo/default/tandemlift/push -m 'data: "force 2 0 0 point 0 0 0 duration 2"'"""
@@ -124,16 +62,12 @@ def fly_in_gazebo(
         sys.stdout.flush()
 
     with ExitStack() as closing:
-        server = GazeboServer(world_from(flown, port))
-        closing.callback(server.close)
-        if window:
-            closing.enter_context(_window(server.master))
-        closing.enter_context(_joined(port, server.check, real_time=real_time))
+        master = closing.enter_context(running_gazebo(flown, window=window, real_time=real_time))
         if not by_hand:
-            begun(server.master)
+            begun(master)
             return fly(flown, "gazebo", progress=progress)
         stopped, recorded = closing.enter_context(_stop_signals()), RecordedFlight(flown, "gazebo")
-        begun(server.master)
+        begun(master)
         while not (stopped() or recorded.over):
             recorded.advance()
         return recorded.snapshot().alone()

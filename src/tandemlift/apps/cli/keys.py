@@ -142,7 +142,7 @@ def schema(controller: str | None) -> None:
       tandemlift schema > mission.schema.json
       #:schema ./mission.schema.json
     """
-    from tandemlift.missions.json_schema import mission_schema
+    from tandemlift.missions.reference import mission_schema
 
     if controller is not None:
         chosen_controller(controller)
@@ -178,7 +178,8 @@ def missions(name: str | None) -> None:
       tandemlift missions
       tandemlift missions iris > mine.toml
     """
-    from tandemlift.missions import DATA, built_in
+    from tandemlift.core.files import DATA
+    from tandemlift.missions import built_in
 
     if name is None:
         _print_table(built_in())

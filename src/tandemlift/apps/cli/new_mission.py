@@ -16,12 +16,8 @@ import numpy as np
 
 from tandemlift.core.errors import InputError, unknown, written
 from tandemlift.core.files import DATA, toml_tables
-from tandemlift.missions import idle_keys
-from tandemlift.missions.changes import tables_of, value_at
+from tandemlift.missions import Mission, VehicleTable, idle_keys, load_mission, tables_of, value_at
 from tandemlift.missions.key_descriptions import sections
-from tandemlift.missions.loading import load_mission
-from tandemlift.missions.mission import Mission
-from tandemlift.parts.mechanics.vehicle_table import VehicleTable
 
 FOLDER = DATA / "quadrotors"
 HIGH = 1.5  # height of the quadrotors' centres above the beam's axis, by its radius, as in the paper

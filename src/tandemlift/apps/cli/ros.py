@@ -140,8 +140,8 @@ def gazebo(
     """
     if by_hand and fast:
         raise InputError("--by-hand flies in real time: leave out --fast")
-    from tandemlift.apps.cli.gazebo_flight import fly_in_gazebo, has_display
-    from tandemlift.engines.gazebo_server import root
+    from tandemlift.apps.cli.gazebo_flight import fly_in_gazebo
+    from tandemlift.engines.gazebo import has_display, root
 
     loaded = flying.load(mission, flying.with_after_crash(settings, after_crash))
     root()  # raises if there is no Gazebo, before anything is compiled

@@ -16,10 +16,10 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.files import write_file
 
 if TYPE_CHECKING:
-    from tandemlift.codegen.known_flights import KnownFile
     from tandemlift.flight.record import Flight
     from tandemlift.missions import Mission
     from tandemlift.parts.controllers import Controller
+    from tandemlift.simulation.known_flights import KnownFile
 
 
 @click.command()
@@ -76,7 +76,7 @@ def run(
 
     Exit code 3: crashed, diverged, interrupted or not lifted; what was flown is written. With --strict, also findings.
     """
-    from tandemlift.codegen.known_flights import KnownFile
+    from tandemlift.simulation.known_flights import KnownFile
 
     began, settings = time.perf_counter(), flying.with_after_crash(settings, after_crash)
     named = study is None and row is None and controller is None and engine in (None, "compiled")
@@ -147,7 +147,7 @@ def write_results(
 
     A recording that the mission flies, given by its path, is among the files. `file`: in which the mission stands.
     """
-    from tandemlift.flight.printed_summary import summary_lines
+    from tandemlift.pictures.report.printed_summary import summary_lines
 
     echo(*summary_lines(flight))
     if recording is not None:  # so that the folder can be flown anywhere

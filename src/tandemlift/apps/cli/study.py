@@ -184,7 +184,7 @@ def benchmark(file: Path | None, quick: bool, out: str | None) -> None:
     from tandemlift.analysis.studies.benchmark import baseline_tables, scores_of, shipped_tables
     from tandemlift.analysis.studies.benchmark_columns import csv_of, json_of, lines_of
     from tandemlift.analysis.studies.benchmark_entry import checked_folder, entry_of
-    from tandemlift.core.file_set import write_files
+    from tandemlift.core.files import write_files
 
     if file is not None and file.is_dir():
         echo(f"{file}: {checked_folder(file)} files, all with their checksums")

@@ -13,8 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tandemlift.flight.channels import Channel
-from tandemlift.flight.data_frames import dimensions
+from tandemlift.flight.channels import Channel, dimensions
 from tandemlift.flight.record import Flight
 
 

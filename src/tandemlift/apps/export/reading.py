@@ -23,8 +23,7 @@ from tandemlift.apps.export.recipes import MeasuredPose, Recipe
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.files import toml_tables
 from tandemlift.core.types import Array
-from tandemlift.flight.channels import CHANNELS
-from tandemlift.flight.reading_stamps import reading_stamps
+from tandemlift.flight.channels import CHANNELS, reading_stamps
 from tandemlift.flight.record import LATE, Flight
 from tandemlift.missions import check_keys
 from tandemlift.parts.mechanics.vehicle import Vehicle

@@ -166,8 +166,7 @@ def read_curves(path: Path, wanted: Iterable[str]) -> tuple[Flight, list[str]]:
 
     from tandemlift.analysis.logs.maps import TableSettings
     from tandemlift.apps.export.text_tables import read_table
-    from tandemlift.flight.channels import DERIVED, channel_of
-    from tandemlift.flight.data_frames import column_names
+    from tandemlift.flight.channels import DERIVED, channel_of, column_names
     from tandemlift.flight.record import Flight
 
     settings = TableSettings()

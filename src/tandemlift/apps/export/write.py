@@ -27,6 +27,8 @@ from tandemlift.core.errors import InputError, extra
 from tandemlift.core.files import atomic_write
 from tandemlift.core.phases import PHASE_NAMES
 from tandemlift.core.types import Array
+from tandemlift.engines.models.written import ENDINGS as MODELS
+from tandemlift.engines.models.written import WORLD, model_of
 from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission, check, format_toml
 from tandemlift.parts.mechanics.vehicle import Vehicle
@@ -166,7 +168,6 @@ def _write(bag: Any, streams: list[TopicStream], connections: list[Any], pack: C
 
 
 FORMATS: dict[str, Callable[[Flight, Path], None]] = {".mcap": write_mcap, ".bag": write_bag, ".csv": write_csv}
-WORLD, MODEL, ROBOT = ".sdf", ".xml", ".urdf"
 OF_FLIGHT = ".mcap (ROS 2 bag), .bag (ROS 1 bag) or .csv (table)"
 OF_MISSION = ".sdf (Gazebo world), .xml (MuJoCo model) or .urdf (robot description of ROS)"
 ENDINGS = f"must end in {OF_FLIGHT}, or for a mission in {OF_MISSION}"
@@ -208,7 +209,7 @@ def is_model(path: Path) -> bool:
         InputError: its ending belongs to no known format.
     """
     ending = path.suffix.lower()
-    if ending not in (*FORMATS, WORLD, MODEL, ROBOT):
+    if ending not in (*FORMATS, *MODELS):
         raise InputError(f"{path}: {ENDINGS}")
     return ending not in FORMATS
 
@@ -223,18 +224,7 @@ def _writer(what: Flight | Mission, path: Path, plugin: int | str | None) -> Cal
     _check_plugin(plugin, path)
     if is_of_mission:
         mission = what if isinstance(what, Mission) else check(what.mission, f"flight {what.name!r}")
-        if ending == WORLD:
-            from tandemlift.engines.models.sdf import world
-
-            text = world(mission, plugin)
-        elif ending == ROBOT:
-            from tandemlift.engines.models.urdf import urdf
-
-            text = urdf(Vehicle.from_settings(mission.vehicle), mission.mission.name)
-        else:
-            from tandemlift.engines.models.mjcf import model_text
-
-            text = model_text(mission)
+        text = model_of(mission, ending, plugin)
         return lambda partial: partial.write_bytes(text.encode())
     if isinstance(what, Mission):
         raise InputError(f"{path}: mission {what.mission.name!r} is no flight: fly it, or write {OF_MISSION}")

@@ -5,10 +5,10 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Sequence
 from typing import Any, get_args, get_origin
 
+from tandemlift.analysis.studies import corridor_score
 from tandemlift.apps.live.session import checks, frames, pacing
 from tandemlift.apps.live.session.challenge import SCORE_FILE
 from tandemlift.apps.live.session.checks import TouchRule, touch_refusal
@@ -19,25 +19,30 @@ from tandemlift.apps.live.session.parameters import BY_KEY, CHOICES, RAMP, bound
 from tandemlift.apps.live.session.scene_builder import scene_of
 from tandemlift.apps.live.session.server_messages import SceneParameter
 from tandemlift.apps.live.session.status import in_sentences
-from tandemlift.codegen.module_text import ValuesFunction
 from tandemlift.core.errors import InputError
-from tandemlift.core.phases import DIVERGED, ENDING_OF, ENDINGS, EndingKind
-from tandemlift.core.refusals import REQUESTS, refusals_for, sentences_for
+from tandemlift.core.refusals import refusals_for, sentences
 from tandemlift.core.types import flat, zeroed
 from tandemlift.core.vector import ZERO, Quat
-from tandemlift.flight import corridor_score
-from tandemlift.flight.record import CAUSE_TEXT, ENDING_TEXT
-from tandemlift.missions import tables_of
-from tandemlift.missions.changes import Tables
+from tandemlift.missions import Tables, tables_of
 from tandemlift.missions.key_descriptions import allowed, bounds, plain
-from tandemlift.simulation.outcome import NOT_FINITE, EndingMoment, EndingNumbers, cause_of, ending_numbers, limit_of
-from tandemlift.simulation.parameter_changes import HAND_PARTS, LATER, NO_EFFECT, scheduled_change
+from tandemlift.missions.recording import HAND_FILE, MISSION_FILE
+from tandemlift.simulation.graphs import ValuesFunction
 from tandemlift.simulation.plan import FlightPlan
-from tandemlift.simulation.recorded_flight import EMPTY_FLIGHT, HAND, HAND_RELEASED, MISSION
-from tandemlift.simulation.refusals import refusal_numbers
+from tandemlift.simulation.recorded_flight import (
+    EMPTY_FLIGHT,
+    ENDING_PARTS,
+    HAND_PARTS,
+    HAND_RELEASED,
+    LATER,
+    NO_EFFECT,
+    ending_from,
+    ending_parts,
+    ending_texts,
+    refusal_numbers,
+    scheduled_change,
+)
 from tandemlift.simulation.stepping import GUIDANCE_MEMORY
 
-ENDING_PARTS = (("limits",), *[("flight_state", name) for name in ("crash", "ended", "state", "impulse")])
 LEVEL, TIMES, RULE = Quat(1.0, 0.0, 0.0, 0.0), frames.PhaseTimes(*4 * [0.0]), TouchRule(0.0, 0.0, 0.0)
 
 
@@ -47,19 +52,9 @@ def page_functions(plan: FlightPlan) -> Sequence[ValuesFunction]:
         ValuesFunction("frame", frames.frame_of_samples(plan.sample), (zeroed(plan.sample), 0.0, TIMES)),
         ValuesFunction("touch_refusal", touch_refusal, (RULE, 0.0, 0.0, ZERO)),
         ValuesFunction("grip_offset", grip_offset, (LEVEL, ZERO)),
-        ValuesFunction("ending", ending_from, (*flight_parts(plan), 0.0)),
+        ValuesFunction("ending", ending_from, (*ending_parts(plan), 0.0)),
         ValuesFunction("refusals", refusal_numbers, (*pilot_parts(plan), 0.0)),
     )
-
-
-def flight_parts(plan: FlightPlan) -> tuple[Any, ...]:
-    """The inputs of an ending; `ENDING_PARTS` are their paths."""
-    return tuple(functools.reduce(getattr, path, plan.model) for path in ENDING_PARTS)
-
-
-def ending_from(limits: Any, crash: Any, ended: Any, state: Any, impulse: Any, t: Any) -> EndingNumbers:
-    """The ending of a flight at time t [s]."""
-    return ending_numbers(limits, crash, EndingMoment(ended, t, state, impulse))
 
 
 def pilot_parts(plan: FlightPlan) -> tuple[Any, Any]:
@@ -152,7 +147,7 @@ def page_manifest(plan: FlightPlan) -> dict[str, Any]:
         "texts": _texts(plan, rule),
         "rules": message_rules(),
         "save_name": NAME_PATTERN,
-        "files": {"mission": MISSION, "hand": HAND, "score": SCORE_FILE},
+        "files": {"mission": MISSION_FILE, "hand": HAND_FILE, "score": SCORE_FILE},
     }
 
 
@@ -218,21 +213,6 @@ def _pacing() -> dict[str, float]:
     }
 
 
-def _endings(plan: FlightPlan) -> dict[str, Any]:
-    """Outcome and text of each ending by number; the texts of non-finite values by their place in the state."""
-    known = {str(int(k.number)): _ending(plan, k, k.quantity, limit_of(plan, k.number)) for k in ENDINGS}
-    parts = [_ending(plan, ENDING_OF[DIVERGED], part, NOT_FINITE) for part in plan.model.flight_state.state._fields]
-    return {"by_number": known, "not_finite": parts}
-
-
-def _ending(plan: FlightPlan, kind: EndingKind, quantity: str, limit: str) -> dict[str, str]:
-    """An ending's outcome, and its text with the places of its numbers in braces; {rounded}: of three digits."""
-    cause = cause_of(plan, kind.number).format(value="{rounded}")
-    named = {"quantity": quantity, "limit": limit, "time": "{time}", "value": "{value}", "cause": cause}
-    text = (CAUSE_TEXT if cause else ENDING_TEXT).replace(":.6g", "")
-    return {"outcome": kind.outcome, "text": text.format(outcome=kind.outcome, **named)}
-
-
 def _texts(plan: FlightPlan, rule: checks.TouchRule) -> dict[str, Any]:
     mission = plan.mission
     by_clock = mission.pilot.guidance == "scheduled"
@@ -247,9 +227,9 @@ def _texts(plan: FlightPlan, rule: checks.TouchRule) -> dict[str, Any]:
         "failed_already": checks.FAILED_ALREADY.replace("{time:g}", "{time}"),
         "no_requests": checks.NO_REQUESTS.format(what="{what}", mission=mission.mission.name) if by_clock else "",
         "touch": {str(int(number)): text for number, text in checks.touch_texts(rule).items()},
-        "refusals": {request: sentences_for(request) for request in REQUESTS},
+        "refusals": sentences(),
         "refused_at_end": {key: in_sentences(refusals_for(key)) for key in ("over", "stopped_early", "error")},
-        "endings": _endings(plan),
+        "endings": ending_texts(plan),
         "empty": EMPTY_FLIGHT,
         "name": f"save.name = {{value}}: must {NAME_RULE}",
         "only_server": ONLY_SERVER,

@@ -11,8 +11,7 @@ from tandemlift.apps.live.page_files import data_element, in_one_file, page_text
 from tandemlift.apps.live.page_modules import ENDING, FORMAT, PackedFlight
 from tandemlift.apps.live.replay import replay_element
 from tandemlift.codegen.mission_module import kept
-from tandemlift.core.file_set import write_files
-from tandemlift.core.files import __version__, write_file
+from tandemlift.core.files import __version__, write_file, write_files
 from tandemlift.missions import load_mission
 
 FOLDER = "flights"  # beside the page's other files

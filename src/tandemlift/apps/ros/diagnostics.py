@@ -6,15 +6,11 @@ import time
 from collections import deque
 from collections.abc import Callable, Mapping
 
-import numpy as np
-
 from tandemlift import Flight
 from tandemlift.apps.export.messages import event_maker, status_maker
 from tandemlift.apps.export.topics import DIAGNOSTICS
 from tandemlift.apps.ros.middleware import Middleware
-from tandemlift.core.phases import CONTACT
-from tandemlift.simulation.results import describe_event
-from tandemlift.simulation.touches import contact_codes
+from tandemlift.simulation.results import changes_of
 
 AGAIN = 1.0  # s, before the same words are repeated
 MOST = 100  # events that wait
@@ -54,16 +50,9 @@ class FlightDiagnostics:
 
     def follow(self, flight: Flight, stamps: list[int]) -> None:
         """Queue phases, alarms, failed checks and contacts as they change in samples."""
-        if "phase" not in flight:
-            return
-        none = np.zeros(len(stamps))
-        seen = np.column_stack([flight.channels.get(n, none) for n in ("phase", "alarm", "failed_check")])
-        codes = contact_codes(flight) or [0] * len(stamps)
-        for stamp, (phase, alarm, refused), code in zip(stamps, seen.astype(int).tolist(), codes, strict=True):
-            now = (phase, alarm, refused, code or (self._now[3] if phase == CONTACT else 0))
-            if now != self._now:
-                self._waiting.append((stamp, describe_event(now, self._now)))
-                self._now = now
+        for row, now, text in changes_of(flight, self._now):
+            self._waiting.append((stamps[row], text))
+            self._now = now
 
     def report(self, stamp: int, summary: str, well: bool, more: Mapping[str, str]) -> None:
         """Publish the state of the flight: a word for it, whether all is `well`, and more by name."""

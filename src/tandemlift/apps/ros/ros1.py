@@ -14,8 +14,7 @@ from tandemlift.apps.live.session.parameters import dotted_values
 from tandemlift.apps.ros.middleware import Answer, ParameterFacts, TopicPublisher
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import DATA
-from tandemlift.engines.gazebo_ros import PLACES
-from tandemlift.engines.rospy import import_rospy, message_type
+from tandemlift.engines.rospy import PLACES, import_rospy, message_type
 
 NAME = "tandemlift"
 FOLDER = DATA / "ros"  # of the ROS package `tandemlift`

@@ -16,7 +16,7 @@ from tandemlift.apps.export.topics import MISSION, ROOT, TF, TF_STATIC, OtherTop
 from tandemlift.apps.ros import scenery
 from tandemlift.apps.ros.middleware import Middleware, TopicPublisher
 from tandemlift.apps.ros.scenery import MARKERS
-from tandemlift.engines.models.urdf import urdf
+from tandemlift.engines.models.written import robot_of
 from tandemlift.missions import format_toml
 
 PATH = "nav_msgs/Path"
@@ -125,7 +125,7 @@ class LatchedTopics:
     def publish_vehicle(self, scene: Mapping[str, Any], vehicle: Vehicle, stamp: int) -> None:
         """Publish where the vehicle's parts are, and what it and its surroundings look like."""
         self._static.publish(Transforms(self._types).fixed(stamp, list(fixed(vehicle))))
-        self._robot.publish(self._types[ROBOT.kind](urdf(vehicle, ROOT.strip("/"))))
+        self._robot.publish(self._types[ROBOT.kind](robot_of(vehicle, ROOT.strip("/"))))
         self._drawn = scenery.still(self._types, scene, vehicle)
         self.draw()
 

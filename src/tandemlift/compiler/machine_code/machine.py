@@ -77,6 +77,11 @@ def compiled(text: str, level: Level = BEST) -> bytes:
     return _object(text, llvm.get_process_triple(), _target(level.code), level)
 
 
+def optimised(text: str) -> bytes:
+    """Object code of scalars that are computed often, from text that may be long."""
+    return compiled(in_short_blocks(text), BEST_OF_VECTORS)
+
+
 class Loaded:
     """Object code in memory, ready for calls.
 

@@ -20,7 +20,7 @@ import os
 import stat
 import sys
 import tempfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -36,7 +36,7 @@ PACKAGE = Path(__file__).resolve().parents[2]
 FOLDERS = ("core", "parts", "compiler", "engines", "simulation/preparation", "simulation/loop")
 FILES = ("simulation/pilot_api", "simulation/refusals")
 
-ROOMS = ("core", "parts", "compiler", "engines", "simulation", "missions", "flight", "codegen", "pictures/report")
+ROOMS = ("core", "parts", "compiler", "engines", "simulation", "missions", "flight", "pictures/report")
 MATHEMATICS = ("OPENBLAS", "OMP_", "MKL_", "BLIS_", "NPY_")  # beginnings of variables that may change its last bits
 MISSIONS = DATA / "missions"
 MARGIN = 2 * 10**7  # ns, by which the clock of files may be late
@@ -135,6 +135,16 @@ def remove(key: str) -> None:
     if path is not None:
         with contextlib.suppress(OSError):
             path.unlink()
+
+
+def kept(key: str, make: Callable[[], StoredCode]) -> StoredCode:
+    """The entry of a key, else made and stored; an empty one, by which a caller only asks, is not."""
+    if found := read(key):
+        return found
+    made = make()
+    if made.code:
+        write(key, made)
+    return made
 
 
 def _trim(home: Path) -> None:

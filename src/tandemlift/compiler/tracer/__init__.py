@@ -5,29 +5,10 @@ without a machine instruction; `llvm` writes the graph as text, which `machine_c
 """
 
 from tandemlift.compiler.tracer import elementary  # gives symbols their functions
+from tandemlift.compiler.tracer.elementary import to_integer
 from tandemlift.compiler.tracer.fused import rounded_twice, traced, tracer
 from tandemlift.compiler.tracer.graph import LEAVES, Graph, laid_out, symbols, written_out
-from tandemlift.compiler.tracer.llvm import Function
+from tandemlift.compiler.tracer.llvm import Function, Read
 from tandemlift.compiler.tracer.refusal import TraceError, refused
 from tandemlift.compiler.tracer.symbol import Symbol
 from tandemlift.compiler.tracer.text import Module, Place, ScratchLayout, double
-
-__all__ = [
-    "LEAVES",
-    "Function",
-    "Graph",
-    "Module",
-    "Place",
-    "ScratchLayout",
-    "Symbol",
-    "TraceError",
-    "double",
-    "elementary",
-    "laid_out",
-    "refused",
-    "rounded_twice",
-    "symbols",
-    "traced",
-    "tracer",
-    "written_out",
-]

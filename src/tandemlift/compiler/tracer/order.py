@@ -13,8 +13,8 @@ from typing import NamedTuple
 from tandemlift.compiler.tracer.graph import Graph
 
 REGISTERS = 30  # vectors that the processor holds, beside one or two that an operation needs for a moment
-CROWDED = 28  # values alive, from which on freeing registers comes first
-SMALL = 2_000  # operations, up to which the longest chain bounds the time more than spills do
+VALUES_ALIVE = 28  # values alive, from which on freeing registers comes first
+PROGRAM_SIZE = 2_000  # operations, up to which the longest chain bounds the time more than spills do
 CYCLES = {"fma": 4, "fmul": 3, "fadd": 3, "fsub": 3, "fdiv": 13, "sqrt": 20, "select": 2}  # approximate latency
 Operands = Mapping[int, Sequence[int]]
 Stores = dict[int, list[int]]
@@ -41,7 +41,7 @@ def best_order(
     plan = created, early_stores(graph, created, to, same)
     if seldom or len(created) <= REGISTERS or not (least := spills(*plan, operands, to)):
         return plan
-    if len(created) <= SMALL:
+    if len(created) <= PROGRAM_SIZE:
         chain = urgency(graph, operands)
         wish = sorted(created, key=lambda node: (-chain[node], node))
     else:
@@ -124,7 +124,7 @@ def freeing_first(operands: Operands, wish: Sequence[int]) -> list[int]:
     order, written, alive = list[int](), set[int](), 0
 
     def next_node() -> int:
-        for number in (3, 2, 1, 0) if alive >= CROWDED else (-1,):
+        for number in (3, 2, 1, 0) if alive >= VALUES_ALIVE else (-1,):
             queue = ready if number < 0 else freeing[number]
             while queue:
                 node = wish[heapq.heappop(queue)]

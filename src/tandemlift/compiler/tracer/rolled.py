@@ -14,7 +14,7 @@ from typing import NamedTuple
 from tandemlift.compiler.tracer.symbol import Symbol
 from tandemlift.compiler.tracer.text import Place, Text, constant, double
 
-WIDEST = 8  # values of a set per instruction in a flight alone
+SET_WIDTH = 8  # values of a set per instruction in a flight alone
 
 
 def stages(f: Text, nodes: Iterable[int]) -> dict[int, int]:
@@ -34,7 +34,7 @@ def width_of(f: Text, count: int) -> int:
     """Values of a set per instruction; 1 in a block, whose lanes fill the vectors already."""
     if f.lanes > 1:
         return 1
-    return next(w for w in (WIDEST, 4, 2, 1) if count % w == 0)
+    return next(w for w in (SET_WIDTH, 4, 2, 1) if count % w == 0)
 
 
 class Loop:

@@ -22,7 +22,7 @@ from tandemlift.compiler.tracer.graph import LEAVES, Graph
 from tandemlift.compiler.tracer.symbol import Nodes, Symbol
 from tandemlift.core.errors import InputError
 
-SMALL = 1  # operations or calls of a law that stays in its caller's graph
+INLINE_SIZE = 1  # operations or calls of a law that stays in its caller's graph
 
 
 class _NotOnItsOwn(Exception):
@@ -183,7 +183,7 @@ class Laws:
             del self.all[length:]
             self._known = {k: v for k, v in self._known.items() if v is None or v.number < length}
             return None
-        if made.operations <= SMALL or not made.ends:
+        if made.operations <= INLINE_SIZE or not made.ends:
             self.all.pop()
             return None
         return made

@@ -16,7 +16,7 @@ from tandemlift.compiler.tracer.symbol import Symbol
 
 BASE = {"b": "i1", "i": "i64", "w": "i32"}  # LLVM's name for each type of the graph; for `f` see `Graph.real`
 WIDE = '"prefer-vector-width"="512" "min-legal-vector-width"="512"'
-LONG = 8_000  # lines, from which on the instruction cache limits a function, which is then optimised for size
+CACHED_LINES = 8_000  # lines, from which on the instruction cache limits a function, which is then optimised for size
 ATTRIBUTES = [
     f"attributes #0 = {{ nounwind {WIDE} }}",
     f"attributes #1 = {{ nounwind noinline alignstack=64 {WIDE} }}",
@@ -25,7 +25,7 @@ ATTRIBUTES = [
 ]
 # of a double and of a float: the distance from 1 to the next, and what rounds to whole numbers as it is added
 ROUNDING = {2.0**-52: 2.0**-23, 1.5 * 2.0**52: 1.5 * 2.0**23}
-SMALLEST, LARGEST = 2.0**-126, (2.0 - 2.0**-23) * 2.0**127  # normal floats
+SMALLEST_FLOAT, LARGEST_FLOAT = 2.0**-126, (2.0 - 2.0**-23) * 2.0**127  # normal floats
 IS_X86, FLUSH = platform.machine().lower() in ("x86_64", "amd64"), 0x8040  # MXCSR: results and operands too small are 0
 INTEGER_OPS = {"add": operator.add, "mul": operator.mul}
 
@@ -99,7 +99,7 @@ class Text(ABC):
         """Close the function and put it into its module."""
         self.do(f"ret {result}")
         begin, *lines = self.lines
-        head = self.head if len(lines) < LONG else self.head.replace(" #1", " #2")
+        head = self.head if len(lines) < CACHED_LINES else self.head.replace(" #1", " #2")
         self.module.functions.append("\n".join([f"define {head} {{", begin, *self._rooms, *lines, "}"]))
 
     @abstractmethod
@@ -274,5 +274,5 @@ def nearest_float(x: float) -> float:
     """
     if x == 0.0 or not math.isfinite(x):
         return x
-    size = ROUNDING.get(abs(x)) or min(max(abs(x), SMALLEST), LARGEST)
+    size = ROUNDING.get(abs(x)) or min(max(abs(x), SMALLEST_FLOAT), LARGEST_FLOAT)
     return float(struct.unpack("<f", struct.pack("<f", math.copysign(size, x)))[0])

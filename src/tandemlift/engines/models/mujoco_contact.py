@@ -25,14 +25,14 @@ from tandemlift.parts.contact.spheres import RotorSpheres
 from tandemlift.parts.contact.walls import Beam, Walls
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
-SOFT = 1e-4  # impedance d of contacts, MuJoCo's smallest: almost a pure spring and damper
+IMPEDANCE = 1e-4  # impedance d of contacts, MuJoCo's smallest: almost a pure spring and damper
 STICKING = 0.2  # fraction of a foot's sliding speed that friction below its limit removes in one step
 POINT = 1e-4  # m, radius of the sphere that represents a foot's ball joint
 GROUND = "ground"  # the floor, for everything but feet
-THIN = 1e-4  # m, thickness of a wall
+WALL_THICKNESS = 1e-4  # m, thickness of a wall
 KINDS = mujoco.mjtGeom
 HULL = "hull"  # begins the names of a payload's box, mesh or bodies
-DEEP = 1e3  # m, height of the walls, which reach below any floor
+WALL_HEIGHT = 1e3  # m, height of the walls, which reach below any floor
 
 
 def _add_shape(body: Any, name: str, kind: Any, **attributes: Any) -> None:
@@ -49,7 +49,7 @@ def _add_contact_pair(spec: Any, one: str, other: str, friction: float) -> None:
         geomname2=other,
         condim=3 if friction else 1,
         friction=flat,
-        solimp=[SOFT, SOFT, 1.0, 0.5, 1.0],
+        solimp=[IMPEDANCE, IMPEDANCE, 1.0, 0.5, 1.0],
     )
 
 
@@ -170,8 +170,8 @@ def add_walls(spec: Any, walls: Walls, upright: Sequence[WallTable], shapes: Veh
         (x1, y1), (x2, y2), along = wall.start, wall.end, np.subtract(wall.end, wall.start)
         turn = np.arctan2(along[1], along[0]) / 2.0
         box: dict[str, Any] = {
-            "pos": [(x1 + x2) / 2.0, (y1 + y2) / 2.0, wall.top - DEEP / 2.0],
-            "size": [np.hypot(*along) / 2.0, THIN / 2.0, DEEP / 2.0],
+            "pos": [(x1 + x2) / 2.0, (y1 + y2) / 2.0, wall.top - WALL_HEIGHT / 2.0],
+            "size": [np.hypot(*along) / 2.0, WALL_THICKNESS / 2.0, WALL_HEIGHT / 2.0],
             "quat": [np.cos(turn), 0.0, 0.0, np.sin(turn)],
         }
         _add_shape(spec.worldbody, f"wall{k}", KINDS.mjGEOM_BOX, **box)
@@ -186,9 +186,9 @@ def set_contact_stiffness(model: Any, floor: Any, walls: Any) -> None:
         shapes = int(model.pair_geom1[p]), int(model.pair_geom2[p])
         side = floor if feet in shapes else floor.hull if ground in shapes else walls.springs
         part = max(shapes, key=lambda shape: model.geom_bodyid[shape])  # the other is fixed to the world
-        R_d = (1.0 - SOFT) * model.body_invweight0[model.geom_bodyid[part], 0]
+        R_d = (1.0 - IMPEDANCE) * model.body_invweight0[model.geom_bodyid[part], 0]
         model.pair_solref[p] = -np.array([side.stiffness, side.damping]) * R_d
-        model.pair_solreffriction[p] = [-1.0, -STICKING / model.opt.timestep * SOFT]
+        model.pair_solreffriction[p] = [-1.0, -STICKING / model.opt.timestep * IMPEDANCE]
 
 
 def touching_parts(model: Any) -> dict[tuple[int, int], tuple[str, str, int]]:

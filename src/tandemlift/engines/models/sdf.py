@@ -18,11 +18,10 @@ from numpy.typing import ArrayLike
 
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.core.vector import vec3
-from tandemlift.engines.models.camera import CAMERAS
 from tandemlift.engines.models.links import Link, links_of
 from tandemlift.engines.models.scene import Scene, floor_from
 from tandemlift.engines.models.sdf_collisions import (
-    FASTEST,
+    CORRECTION_SPEED,
     FLOOR_BIT,
     WALL_BIT,
     CollisionSurface,
@@ -32,6 +31,7 @@ from tandemlift.engines.models.sdf_collisions import (
 )
 from tandemlift.engines.models.sdf_elements import Element, add, fill, geometry, numbers, pose, rgba
 from tandemlift.engines.models.visuals import (
+    CAMERAS,
     GLASS,
     LEVEL,
     SUN,
@@ -48,14 +48,14 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 
 MODEL = "tandemlift"
 PLUGIN, OVER_ROS = "libtandemlift_gazebo.so", "libtandemlift_gazebo_ros.so"
-CORRECTED = 0.8  # fraction of a joint's error that is corrected in a step
-THIN, SHOWN = 1e-4, 0.02  # m, thickness of a wall's collision shape and of its visual
-MESH, BROAD, RAISED = 1.0, 0.015, 5e-4  # m, spacing, width and height of the lines on the floor
-BURIED = 0.1  # m, depth of the walls below the floor
+CORRECTED_SHARE = 0.8  # fraction of a joint's error that is corrected in a step
+WALL_THICKNESS, SHOWN_THICKNESS = 1e-4, 0.02  # m, thickness of a wall's collision shape and of its visual
+LINE_SPACING, LINE_WIDTH, LINE_HEIGHT = 1.0, 0.015, 5e-4  # m, spacing, width and height of the lines on the floor
+WALL_DEPTH = 0.1  # m, depth of the walls below the floor
 MARGIN = 15.0  # m, of visible floor around everything
 GROUND, LINE, SKY, AMBIENT = "#b9bdc3", "#9ba0a8", "#dbe6f2", "#595959"
 DIGITS = 6  # decimals [m, rad] of visuals
-FAR = 3.5  # distance of the first view, as a multiple of the vehicle's reach
+VIEW_DISTANCE = 3.5  # distance of the first view, as a multiple of the vehicle's reach
 
 
 def world(scene: Scene, plugin: int | str | None = None) -> str:
@@ -90,8 +90,8 @@ def _add_environment(top: Element, scene: Scene, vehicle: Vehicle) -> None:
     fill(physics, {"max_step_size": step, "real_time_factor": 1.0, "real_time_update_rate": 1.0 / step})
     contact: dict[str, float] = {
         "cfm": 0.0,
-        "erp": CORRECTED,
-        "contact_max_correcting_vel": FASTEST,
+        "erp": CORRECTED_SHARE,
+        "contact_max_correcting_vel": CORRECTION_SPEED,
         "contact_surface_layer": 0.0,
     }
     fill(physics, {"ode": {"solver": {"type": "world"}, "constraints": contact}})  # the exact solver
@@ -104,10 +104,10 @@ def _add_environment(top: Element, scene: Scene, vehicle: Vehicle) -> None:
     view, reach = CAMERAS["follow"], float(np.linalg.norm(vehicle.lever_arms, axis=1).max()) + 0.5
     azimuth, height = np.radians([view.azimuth, view.elevation])
     back = np.array([np.cos(height) * np.cos(azimuth), np.cos(height) * np.sin(azimuth), np.sin(height)])
-    eye = scene.initial.position + FAR * reach * back
+    eye = scene.initial.position + VIEW_DISTANCE * reach * back
     add(camera, "pose", numbers([*eye, 0.0, height, azimuth + np.pi], DIGITS))
     add(camera, "view_controller", "orbit")
-    near, far = 0.8 * FAR * reach, 1.2 * FAR * reach
+    near, far = 0.8 * VIEW_DISTANCE * reach, 1.2 * VIEW_DISTANCE * reach
     fill(add(camera, "track_visual"), {"name": MODEL, "min_dist": near, "max_dist": far, "static": "false"})
 
 
@@ -138,7 +138,7 @@ def _add_floor(top: Element, floor: Floor, scene: Scene) -> None:
     ends = [end for w in scene.all_walls for end in (w.start, w.end)]
     places = np.array([scene.initial.position[:2], *ends])
     low, high = places.min(axis=0) - MARGIN, places.max(axis=0) + MARGIN
-    low, high = np.floor(low / MESH) * MESH, np.ceil(high / MESH) * MESH
+    low, high = np.floor(low / LINE_SPACING) * LINE_SPACING, np.ceil(high / LINE_SPACING) * LINE_SPACING
     link = _add_static_link(top, "floor", [*(low + high) / 2.0, floor.height])
     for kind in ("collision", "visual"):
         part = add(link, kind, name="floor")
@@ -154,8 +154,8 @@ def _add_floor(top: Element, floor: Floor, scene: Scene) -> None:
 def _grid_lines(size: Array) -> Iterator[VisualShape]:
     """The lines of a grid on a floor of a size (2) [m]."""
     for i, (along, letter) in enumerate(zip(size[::-1], "xy", strict=True)):
-        for k, place in enumerate(np.arange(0.0, size[i] + MESH / 2.0, MESH) - size[i] / 2.0):
-            middle, sides = np.array([0.0, 0.0, RAISED]), [BROAD, BROAD, RAISED]
+        for k, place in enumerate(np.arange(0.0, size[i] + LINE_SPACING / 2.0, LINE_SPACING) - size[i] / 2.0):
+            middle, sides = np.array([0.0, 0.0, LINE_HEIGHT]), [LINE_WIDTH, LINE_WIDTH, LINE_HEIGHT]
             middle[i], sides[1 - i] = place, along
             yield VisualShape(f"line_{letter}_{k}", "box", (sides[0], sides[1], sides[2]), middle, LEVEL, LINE)
 
@@ -166,16 +166,16 @@ def _add_walls(top: Element, scene: Scene, floor: Floor) -> None:
     for k, wall in enumerate(scene.all_walls, 1):
         shape = _wall(f"wall_{k}", wall, floor.height)
         add_collision(link, shape, surface)
-        _add_visual(link, shape._replace(size=(shape.size[0], SHOWN, shape.size[2])))
+        _add_visual(link, shape._replace(size=(shape.size[0], SHOWN_THICKNESS, shape.size[2])))
 
 
 def _wall(name: str, wall: WallTable, floor: float) -> VisualShape:
     """The box of a wall, from below the floor to its top."""
     start, along = np.array(wall.start), np.subtract(wall.end, wall.start)
-    foot, length = min(floor, wall.top) - BURIED, float(np.hypot(*along))
+    foot, length = min(floor, wall.top) - WALL_DEPTH, float(np.hypot(*along))
     axes = rotation_about_z(np.arctan2(along[1], along[0]))
     middle = np.array([*(start + along / 2.0), (foot + wall.top) / 2.0])
-    return VisualShape(name, "box", (length, THIN, wall.top - foot), middle, axes, WALL, GLASS)
+    return VisualShape(name, "box", (length, WALL_THICKNESS, wall.top - foot), middle, axes, WALL, GLASS)
 
 
 def _add_vehicle(top: Element, scene: Scene, vehicle: Vehicle, plugin: int | str | None) -> None:

@@ -33,9 +33,9 @@ from tandemlift.parts.mechanics.payload import Payload
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
 FLOOR_BIT, WALL_BIT = 1, 2  # of collide_bitmask
-HARD = 1e15  # N/m, of floor and walls: large compared with the vehicle's stiffness
+CONTACT_STIFFNESS = 1e15  # N/m, of floor and walls: large compared with the vehicle's stiffness
 CREEP = 1e-7  # (m/s)/N, slip of friction: without it ODE's exact solver fails on redundant feet
-FASTEST = 100.0  # m/s, limit of contact correction; Gazebo's default of 0.01 m/s would limit the springs
+CORRECTION_SPEED = 100.0  # m/s, limit of contact correction; Gazebo's default of 0.01 m/s would limit the springs
 
 
 class CollisionSurface(NamedTuple):
@@ -43,7 +43,7 @@ class CollisionSurface(NamedTuple):
 
     bit: int
     friction: float
-    stiffness: float = HARD
+    stiffness: float = CONTACT_STIFFNESS
     damping: float = 0.0
 
 
@@ -59,7 +59,7 @@ def add_collision(link: Element, shape: VisualShape, surface: CollisionSurface, 
 
 def add_surface(collision: Element, surface: CollisionSurface) -> None:
     """Add a surface to a shape."""
-    spring = {"kp": surface.stiffness, "kd": surface.damping, "max_vel": FASTEST, "min_depth": 0.0}
+    spring = {"kp": surface.stiffness, "kd": surface.damping, "max_vel": CORRECTION_SPEED, "min_depth": 0.0}
     slip = {"mu": surface.friction, "mu2": surface.friction, "slip1": CREEP, "slip2": CREEP}
     contact = {"collide_bitmask": surface.bit, "ode": spring}
     fill(collision, {"surface": {"contact": contact, "friction": {"ode": slip}}})

@@ -1,4 +1,5 @@
-"""Looks of a vehicle and its surroundings: boxes, spheres and cylinders, which every simulator has, and their colours.
+"""Looks of a vehicle and its surroundings: boxes, spheres and cylinders, which every simulator has, their colours, and
+the cameras that view them.
 
 The hull of a mesh is one more, of triangles; where there are none, its edges are drawn as cylinders.
 
@@ -9,12 +10,14 @@ MuJoCo, Gazebo and RViz draw this one list.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.types import Array
 from tandemlift.core.vector import vec3
 from tandemlift.parts.mechanics.bodies import ConvexHull
@@ -33,7 +36,7 @@ BEAM_RADIUS = 0.03  # m, of a beam whose radius is not given
 EDGE_RADIUS = 0.005  # m, of the edges of a hull
 SEGMENTS = 16  # straight pieces of a guard ring
 LEVEL = np.eye(3)
-SHORTEST = 1e-6  # m, a shorter cylinder is left out
+SHORTEST_CYLINDER = 1e-6  # m, a shorter cylinder is left out
 
 
 def rgba_of(color: str, opacity: float = 1.0) -> list[float]:
@@ -82,7 +85,7 @@ def cylinder(name: str, start: ArrayLike, end: ArrayLike, radius: float, color: 
     """A cylinder from one point to another; none if the points coincide."""
     a, b = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
     length = float(np.linalg.norm(b - a))
-    if length < SHORTEST:
+    if length < SHORTEST_CYLINDER:
         return []
     return [VisualShape(name, "cylinder", (radius, length), (a + b) / 2.0, frame_along(b - a), color)]
 
@@ -176,7 +179,7 @@ def _mount(q: Quadrotor, depth: float) -> list[VisualShape]:
     """The strut to the joint, and the sensor's collar where the strut leaves the payload."""
     s, joint = mean_arm(q), np.subtract(q.joint_position, q.position)
     length = float(np.linalg.norm(joint))
-    if length < SHORTEST:
+    if length < SHORTEST_CYLINDER:
         return []
     first = min(depth, 0.8 * length)
     start, end = joint * (1.0 - first / length), joint * (1.0 - min(first + 0.16 * s, length) / length)
@@ -234,3 +237,54 @@ def wall_shape(wall: Mapping[str, Any]) -> VisualShape:
     """A wall as a thin box, from its table in the scene: `size` (3), `center` (3) [m, world axes], `heading` [rad]."""
     axes = rotation_about_z(wall["heading"])
     return VisualShape("wall", "box", tuple(wall["size"]), np.array(wall["center"]), axes, WALL, GLASS)
+
+
+# ---- Cameras: the directions from which a vehicle is viewed, by name or by angles
+
+
+@dataclass(frozen=True)
+class Camera:
+    """The direction from which the vehicle is viewed.
+
+    Attributes:
+        azimuth: of the camera as seen from the vehicle [deg].
+        elevation: likewise [deg].
+        follows: whether the camera follows the vehicle; otherwise it is fixed and shows the whole path.
+        distance: of a following camera [m]; if not given, the vehicle fills the picture.
+    """
+
+    azimuth: float
+    elevation: float
+    follows: bool = True
+    distance: float | None = None
+
+
+CAMERAS = {
+    "follow": Camera(-52.0, 17.0),
+    "overview": Camera(-64.0, 27.0, follows=False),
+    "front": Camera(0.0, 8.0),
+    "side": Camera(-90.0, 8.0),
+    "top": Camera(180.0, 89.0),
+}
+
+
+def camera_of(text: str) -> Camera:
+    """A camera by name, or by AZIMUTH,ELEVATION[,DISTANCE] in degrees and metres.
+
+    Raises:
+        InputError: it is neither.
+    """
+    if text in CAMERAS:
+        return CAMERAS[text]
+    parts = text.split(",")
+    try:
+        numbers = [float(part) for part in parts]
+    except ValueError:
+        raise unknown("camera", text, [*CAMERAS, "AZIMUTH,ELEVATION[,DISTANCE]"]) from None
+    sound = len(numbers) in (2, 3) and all(map(np.isfinite, numbers))
+    if not sound or not 2.0 <= numbers[1] <= 89.0 or not 0.2 <= (*numbers, 1.0)[2] <= 1000.0:
+        raise InputError(
+            f"camera {text!r} must be AZIMUTH,ELEVATION[,DISTANCE]: degrees from x to y, degrees above the horizon "
+            "from 2 to 89, and metres from 0.2 to 1000, such as -55,20,4"
+        )
+    return Camera(numbers[0], numbers[1], distance=numbers[2] if len(numbers) == 3 else None)

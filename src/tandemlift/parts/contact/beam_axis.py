@@ -11,7 +11,7 @@ from tandemlift.core.algebra import clip, maximum, where
 from tandemlift.core.law import choice, elementwise, law
 from tandemlift.core.types import Number, PerQuadrotor
 from tandemlift.core.vector import ZERO, Absent, Mat3, Vec3, apply, apply_transposed, cross, dot
-from tandemlift.parts.contact.spheres import SMALL, WallContact, about_arm, sphere_contact
+from tandemlift.parts.contact.spheres import LEAST_SQUARE, WallContact, about_arm, sphere_contact
 from tandemlift.parts.contact.springs import Springs
 from tandemlift.parts.contact.wall_geometry import (
     Wall,
@@ -81,7 +81,7 @@ def _by_edge(
 ) -> Number:
     x, y = e_x - c_x, e_y - c_y
     along = x * b_x + y * b_y
-    level = along / maximum(b_x * b_x + b_y * b_y, SMALL)
+    level = along / maximum(b_x * b_x + b_y * b_y, LEAST_SQUARE)
     up = top - c_z
     return clip(where(level * b_z < up, level, along + up * b_z), -half, half)
 

@@ -22,8 +22,8 @@ from tandemlift.parts.mechanics.joint_loads import PartsLayout, translated
 from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
-FAR = 1000.0  # m
-STALE = 0.05  # m, by which the vehicle may move before the nearest walls are found anew
+DISTANCE_WITHOUT_WALLS = 1000.0  # m
+SEARCH_DISTANCE = 0.05  # m, by which the vehicle may move before the nearest walls are found anew
 
 
 class Clearance(NamedTuple):
@@ -111,7 +111,7 @@ def clearance(w: Walls, near: NearWalls, frame: PartsLayout, s: State) -> Cleara
     return Clearance(guards, rotors, beam_clearance(w.beam, near.beam, frame, s))
 
 
-@choice(absent=FAR)
+@choice(absent=DISTANCE_WITHOUT_WALLS)
 def least_clearance(c: Clearance | RotorClearance | BeamClearance | Absent) -> Number:
     """The smallest distance of a clearance [m]."""
 
@@ -140,7 +140,7 @@ def speed_bound(w: Walls, s: State) -> Number:
 @law
 def is_fast(w: Walls, s: State, span: Number) -> Condition:
     """Whether the vehicle may move so far within a span [s] that other walls may be the nearest by then."""
-    return speed_bound(w, s) * span > STALE
+    return speed_bound(w, s) * span > SEARCH_DISTANCE
 
 
 @law

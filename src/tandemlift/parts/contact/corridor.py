@@ -27,8 +27,8 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 
 Point2 = Annotated[tuple[float, float], PerAxis(2, single=False)]
 
-SHORTEST = 1e-3  # m, of a wall
-SHARPEST = math.radians(150.0)  # change of direction of a centreline
+SHORTEST_WALL = 1e-3  # m, of a wall
+SHARPEST_BEND = math.radians(150.0)  # change of direction of a centreline
 
 
 class WallTable(Table):
@@ -81,16 +81,16 @@ class CorridorTable(Table, acts="corridor.centreline is given"):
     def _can_be_built(self) -> CorridorTable:
         if not self.centreline:
             return self
-        if len(self.centreline) < 2 or any(math.dist(a, b) < SHORTEST for a, b in pairwise(self.centreline)):
-            raise must("corridor", f"have a centreline of two points or more, {SHORTEST} m or more apart")
+        if len(self.centreline) < 2 or any(math.dist(a, b) < SHORTEST_WALL for a, b in pairwise(self.centreline)):
+            raise must("corridor", f"have a centreline of two points or more, {SHORTEST_WALL} m or more apart")
         along = np.diff(np.array(self.centreline), axis=0)
         angles = np.arctan2(along[:, 1], along[:, 0])
         turns = np.abs((np.diff(angles) + math.pi) % (2.0 * math.pi) - math.pi)
-        if len(turns) and turns.max() > SHARPEST:
+        if len(turns) and turns.max() > SHARPEST_BEND:
             worst = math.degrees(turns.max())
             raise must("corridor", f"turn by 150° or less at each corner: it turns by {worst:.0f}°")
         for side in sides(self.centreline, self.width):
-            if np.any(np.sum(np.diff(side, axis=0) * along, axis=1) < SHORTEST * np.linalg.norm(along, axis=1)):
+            if np.any(np.sum(np.diff(side, axis=0) * along, axis=1) < SHORTEST_WALL * np.linalg.norm(along, axis=1)):
                 raise must(
                     "corridor", "have corners farther apart, or be narrower: a wall between two of them vanishes"
                 )
@@ -120,8 +120,8 @@ def wall_tables(mission: Mapping[str, Any]) -> list[dict[str, Any]]:
 def wall_checks(walls: Sequence[WallTable]) -> Iterator[CheckResult]:
     """Check for walls that are too short."""
     for i, w in enumerate(walls):
-        if math.dist(w.start, w.end) < SHORTEST:
-            yield refused(f"walls.{i}.end = {shown(w.end)}: must be {SHORTEST} m or more from walls.{i}.start")
+        if math.dist(w.start, w.end) < SHORTEST_WALL:
+            yield refused(f"walls.{i}.end = {shown(w.end)}: must be {SHORTEST_WALL} m or more from walls.{i}.start")
 
 
 def wall_warnings(

@@ -52,8 +52,8 @@ from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
 ROUNDING = 0.02  # m, radius of corners and edges, or a quarter of the body's width if that is less
 BESIDE = 1e-9  # m, tolerance of a point on a face
-LEAST = 1e-6  # m, distance at which a direction is known
-FAR = 1e3  # m
+LEAST_DISTANCE = 1e-6  # m, distance at which a direction is known
+FAR_DISTANCE = 1e3  # m
 
 
 class Faces(NamedTuple):
@@ -161,7 +161,7 @@ def offset_from_tip(faces: Faces, radius: Number, edge: Wall, origin: Vec3, R: M
     face = first_number(above, most)
     normal = Vec3(*[total(only_number(axis, face)) for axis in faces.normal])
     beside = greatest(dot(faces.normal, tip - normal * most) - faces.distance)
-    return apply(R, normal * -where(beside < BESIDE, maximum(most + radius, LEAST), FAR))
+    return apply(R, normal * -where(beside < BESIDE, maximum(most + radius, LEAST_DISTANCE), FAR_DISTANCE))
 
 
 @law

@@ -1,7 +1,7 @@
 """Contact of spheres with walls, and of rotors that stand out of their guard, each a sphere about its hub.
 
-A rotor is in its guard where its rim is at most `SPARED` outside it. Against a wall such a rotor has no shape of its
-own, and the guard's sphere stands for it.
+A rotor is in its guard where its rim is at most `GUARD_DEFLECTION` outside it. Against a wall such a rotor has no shape
+of its own, and the guard's sphere stands for it.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
-SMALL = 1e-18  # m²: no direction is known at this distance
-SPARED = 0.02  # m, deflection of a guard under some 100 N
+LEAST_SQUARE = 1e-18  # m²: no direction is known at this distance
+GUARD_DEFLECTION = 0.02  # m, deflection of a guard under some 100 N
 
 
 @elementwise
 def inverse_root(square: Number) -> Number:
     """1/√square, bounded."""
-    return 1.0 / sqrt(maximum(square, SMALL))
+    return 1.0 / sqrt(maximum(square, LEAST_SQUARE))
 
 
 @elementwise
@@ -144,7 +144,7 @@ def rotor_spheres(vehicle: Vehicle) -> RotorSpheres | Absent:
     sizes = list[Number]()
     for q in vehicle.quadrotors:
         rims = [sqrt(x * x + y * y) + q.rotor_radius for x, y in q.rotors]
-        sizes += [where(rim > q.guard_radius + SPARED, q.rotor_radius, 0.0) for rim in rims]
+        sizes += [where(rim > q.guard_radius + GUARD_DEFLECTION, q.rotor_radius, 0.0) for rim in rims]
     if not greatest(sizes) > 0.0:
         return Absent()
     return RotorSpheres(spread(vehicle.hubs), set_of(list(map(number, sizes))))

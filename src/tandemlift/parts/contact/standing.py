@@ -22,12 +22,13 @@ from tandemlift.parts.mechanics.rotation import rotation_from_euler
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
 
-DEEP = 0.02  # m, of feet in the floor at the start
-LEVEL = 0.005  # m, between the soles of two quadrotors
-FAR_DOWN, FAR_UP = 0.02, 0.3  # m, of the landed reference above and below the height of the standing vehicle
-THROWN = 5.0  # times its sinkage
-NEARLY = 0.75  # of the impulse that ends a flight, as a contact returns some of it
-SOFT = 2.0  # times the specified sinkage
+FOOT_DEPTH = 0.02  # m, of feet in the floor at the start
+SOLE_OFFSET = 0.005  # m, between the soles of two quadrotors
+DISTANCE_BELOW = 0.02  # m, of the landed reference below the height of the standing vehicle
+DISTANCE_ABOVE = 0.3  # m, and above it
+THROW_FACTOR = 5.0  # times its sinkage
+IMPULSE_SHARE = 0.75  # of the impulse that ends a flight, as a contact returns some of it
+SINKAGE_FACTOR = 2.0  # times the specified sinkage
 
 
 class GroundTable(Table, acts='ground.model = "floor"'):
@@ -122,7 +123,7 @@ def lift_height_checks(g: GroundTable, phases: PhasesTable) -> Iterator[CheckRes
 
 def depth_checks(g: GroundTable, initial: InitialTable, standing: Standing) -> Iterator[CheckResult]:
     """Check for a start deep in the floor."""
-    if standing.depth > DEEP:
+    if standing.depth > FOOT_DEPTH:
         key, value, hint = "ground.height", g.height, "must be lower, or initial.position higher"
         if value is None:
             key, hint = "initial.euler", "must be level, or ground.height lower"
@@ -134,7 +135,7 @@ def floor_warnings(
     g: GroundTable, vehicle: VehicleTable, rotors: str, step: float, standing: Standing
 ) -> Iterator[CheckResult]:
     """Check for a soft floor, ideal rotors on a floor, soles that are not level, and a payload lower than the feet."""
-    if standing.sinkage > SOFT * g.sinkage:
+    if standing.sinkage > SINKAGE_FACTOR * g.sinkage:
         yield warned(
             f"ground.sinkage = {g.sinkage} m: with mission.step = {step} s the floor must be softer, "
             f"and the standing vehicle sinks by {standing.sinkage:.2g} m"
@@ -146,7 +147,7 @@ def floor_warnings(
         )
     soles = [q.position[2] - q.feet_depth for q in vehicle.quadrotors]
     high, low = (pick(range(len(soles)), key=soles.__getitem__) for pick in (max, min))
-    if soles[high] - soles[low] > LEVEL:
+    if soles[high] - soles[low] > SOLE_OFFSET:
         yield warned(
             f"the soles of quadrotor {high + 1} are {soles[high] - soles[low]:.3g} m above those of quadrotor "
             f"{low + 1}: the vehicle does not stand level; change position or feet_depth of one"
@@ -159,12 +160,12 @@ def floor_warnings(
 def start_warnings(p: PhasesTable, standing: Standing) -> Iterator[CheckResult]:
     """Check for a start deep in the floor, or above it with stopped rotors."""
     depth = standing.depth
-    if depth > THROWN * standing.sinkage:
+    if depth > THROW_FACTOR * standing.sinkage:
         thrown = f"{depth**2 / (2.0 * standing.sinkage):.2g} m"  # of springs, undamped
         yield warned(
             f"the vehicle starts {depth:.2g} m deep in the floor, which throws the vehicle up by as much as {thrown}"
         )
-    if p.rotors == "flight" and p.lift_start > 0.0 and -depth > FAR_DOWN:
+    if p.rotors == "flight" and p.lift_start > 0.0 and -depth > DISTANCE_BELOW:
         until = f"with its rotors stopped until {p.lift_start:g} s"
         yield warned(f"the vehicle starts {-depth:.3g} m above the floor, {until}")
 
@@ -180,8 +181,8 @@ def blow_warnings(
     stopped = p.rotors == "flight" and p.lift_start > 0.0
     down = max(-initial.velocity[2], 0.0)
     speed = math.hypot(*initial.velocity) if stopped or down else 0.0
-    if -standing.depth < FAR_DOWN and mass * speed > NEARLY * limit:
-        straight = mass * down > NEARLY * limit
+    if -standing.depth < DISTANCE_BELOW and mass * speed > IMPULSE_SHARE * limit:
+        straight = mass * down > IMPULSE_SHARE * limit
         speed = down if straight else speed
         what = f"[2] = {-down:g}" if straight else f" = {shown(initial.velocity)}"
         yield warned(
@@ -194,8 +195,8 @@ def reference_warnings(p: PhasesTable, duration: float, standing: Standing) -> I
     """Check for a reference that differs from the height of the standing vehicle, in a flight of `duration` [s]."""
     rests = standing.rests
     stops = math.inf if p.land_start is None else p.land_start + p.land_duration
-    if p.rotors == "flight" and rests < -FAR_DOWN and stops < duration:
+    if p.rotors == "flight" and rests < -DISTANCE_BELOW and stops < duration:
         yield warned(f"the landing ends at z = 0, {-rests:.3g} m above where the vehicle stands: then its rotors stop")
-    if rests > FAR_UP:
+    if rests > DISTANCE_ABOVE:
         where = f"the vehicle stands at z = {rests:.3g} m while its reference, not lifted, is at z = 0"
         yield warned(f"{where}: it presses down")

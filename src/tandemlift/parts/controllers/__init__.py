@@ -32,6 +32,7 @@ from tandemlift.parts.controllers.interface import (
     NoMemory,
     control,
 )
+from tandemlift.parts.controllers.interface import tilt_limit_of as tilt_limit_of
 from tandemlift.parts.controllers.registry import CONTROLLERS, Controller, error_text, file_of, register
 from tandemlift.parts.controllers.user_controller import controller, load_controller
 from tandemlift.parts.mechanics.rigid_body import UP, State, Wrench, apply_inertia, gyroscopic, inertia_value

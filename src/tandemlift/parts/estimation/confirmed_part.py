@@ -29,14 +29,16 @@ from tandemlift.core.law import elementwise, law
 from tandemlift.core.low_pass import LowPass, LowPassState, V, low_pass_step
 from tandemlift.core.types import Number
 
-REFUTED, CONFIRMED = 0.4, 0.6  # unexplained share of a push up to which none is confirmed, and from which on all is
+REFUTED_SHARE = 0.4  # unexplained share of a push up to which none is confirmed
+CONFIRMED_SHARE = 0.6  # and from which on all is
 RELEARN_TIME = 2.0  # s, in which an unconfirmed part becomes the new zero
 QUIET_TIME = 1.0  # s, in which a drift of the joints does without a push
 DRIFT_TIME = 20.0  # s, in which it does during one, and the mean of r follows other drifts
 RISE_TIME, FALL_TIME = 0.7, 0.5  # s, in which a push counts as recently confirmed, and in which the confirmation decays
 GUSTS, GUST_TIME = 3.0, 5.0  # standard deviations of F̂ + r that count as gusts; s, time constant of its mean square
-FAR = 4.0  # tolerances: a larger r, such as the floor's force, is no drift
-LARGE, LITTLE = 3.0, 1.5  # tolerances: of a push beyond the first, less than the second is left where it is refuted
+DRIFT_LIMIT = 4.0  # tolerances: a larger r, such as the floor's force, is no drift
+LARGE_PUSH = 3.0  # tolerances: of a larger push …
+LITTLE_PUSH = 1.5  # … less than this is left where it is refuted
 NEGLIGIBLE = 0.1  # of a tolerance
 TINY = 1e-12  # N
 
@@ -66,7 +68,7 @@ class Confirmed(NamedTuple, Generic[V]):
 @elementwise
 def confirmed_fraction(share: Number) -> Number:
     """The confirmed fraction of a push, 0 to 1, from the fraction that has no other explanation."""
-    return clip((share - REFUTED) * (1.0 / (CONFIRMED - REFUTED)), 0.0, 1.0)
+    return clip((share - REFUTED_SHARE) * (1.0 / (CONFIRMED_SHARE - REFUTED_SHARE)), 0.0, 1.0)
 
 
 @elementwise
@@ -85,8 +87,8 @@ def confirmed(push: Number, rest: Number, square: Number, tolerance: Number, rat
 @elementwise
 def is_refuted(push: Number, left: Number, off: Number, tolerance: Number) -> Number:
     """1 for a push that is almost entirely refuted because the vehicle does not move along with it, else 0."""
-    refuted = where(push * off < 0.0, where(absolute(left) < LITTLE * tolerance, 1.0, 0.0), 0.0)
-    return where(absolute(push) > LARGE * tolerance, refuted, 0.0)
+    refuted = where(push * off < 0.0, where(absolute(left) < LITTLE_PUSH * tolerance, 1.0, 0.0), 0.0)
+    return where(absolute(push) > LARGE_PUSH * tolerance, refuted, 0.0)
 
 
 @elementwise
@@ -97,7 +99,7 @@ def mean_change(push: Number, left: Number, off: Number, tolerance: Number, dt: 
     the mean follows a drift along the push; an opposite drift is a `joint_drift`.
     """
     withheld = absolute(push - left)
-    along = where(push * off < 0.0, 0.0, where(absolute(off) < FAR * tolerance, 1.0, 0.0))
+    along = where(push * off < 0.0, 0.0, where(absolute(off) < DRIFT_LIMIT * tolerance, 1.0, 0.0))
     drifts = where(withheld < NEGLIGIBLE * tolerance, along, 0.0)
     explained = where(push * off < 0.0, left - push, off * withheld / maximum(absolute(push), TINY))
     return off * drifts * (dt / DRIFT_TIME) + explained * (dt / RELEARN_TIME)

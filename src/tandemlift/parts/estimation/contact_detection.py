@@ -52,10 +52,10 @@ RELEASE = 0.5  # of the threshold: below it, there is no contact
 QUIET_TIME = 0.1  # s without force, after which a contact is over
 AWAY = 0.04  # m by which a part has moved away from a wall when the contact is over
 EXPLAINED_TIME = 0.5  # s after a contact, in which joints that disagree are explained by it
-HIGH = 0.2  # m above the ground: feet do not touch it in a landing
+FEET_HEIGHT = 0.2  # m above the ground: feet do not touch it in a landing
 TINY = 1e-12  # N²
-FAST = 80.0  # rad/s: 12 ms until half of a sudden force is seen; keeps 0.05 N of the noise of mission iris's sensors
-SLOW = 8.0  # rad/s, of the slow means: pushes and gusts change more slowly than a contact
+RESIDUAL_BANDWIDTH = 80.0  # rad/s: shows half of a sudden force in 12 ms, and 0.05 N of the noise of mission iris
+MEAN_BANDWIDTH = 8.0  # rad/s, of the slow means: pushes and gusts change more slowly than a contact
 MARGIN = 0.06  # m: 30 ms at 1 m/s until a contact is detected, and an error of the position
 
 
@@ -253,7 +253,9 @@ def contact_step(
     evidence, d = heard(k, m.evidence, e, x, where(before.part == 0.0, 0.0, 1.0), dt)
     guards = guards_matched(surroundings.walls, k.geometry, s, world_forces(s, d.lasting))
     beam = beam_of(surroundings.walls, k.geometry, s, in_world(s, d.push.x, d.push.y))
-    aloft = maximum(surroundings.aloft, where(s.position.z > surroundings.ground + HIGH, surroundings.landing, 0.0))
+    aloft = maximum(
+        surroundings.aloft, where(s.position.z > surroundings.ground + FEET_HEIGHT, surroundings.landing, 0.0)
+    )
     free = where(before.part == 0.0, aloft * x.push.armed, 0.0)
     told = touching_part(k, evidence, d, guards, beam, maximum(x.push.trusted, shaken(m)))
     part, y = by_line_of_action(k.whole, told, x.push.point, k, evidence, (guards, beam))
@@ -324,8 +326,8 @@ def start_contact_detection(
     )
     whole = WholeForce(vehicle.mass, inertia_value(vehicle.inertia), -vec3(vehicle.payload_center))
     detector = ContactDetector(
-        fast=low_pass(FAST, interval),
-        slow_rate=SLOW,
+        fast=low_pass(RESIDUAL_BANDWIDTH, interval),
+        slow_rate=MEAN_BANDWIDTH,
         threshold=table.threshold,
         mass=vehicle.mass,
         geometry=geometry,

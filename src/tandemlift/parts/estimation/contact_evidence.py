@@ -41,9 +41,9 @@ from tandemlift.parts.estimation.wrench.observation import WholeForce, may_act_o
 from tandemlift.parts.mechanics.joint_loads import add_to_each
 from tandemlift.parts.sensors.readings import ImuReading
 
-CONFIRMED = 0.7  # least share of a force that the momentum residual shows
+CONFIRMED_SHARE = 0.7  # least share of a force that the momentum residual shows
 SEEN = 0.005  # least share of its square that the joints carry: 0.02 where all guards touch alike
-SHARP, STEEP = 60.0, 300.0  # N/s: least rise of a force on the beam at a known wall, and anywhere
+RISE_AT_WALL, RISE_ANYWHERE = 60.0, 300.0  # N/s: least rise of a force on the beam at a known wall, and anywhere
 STEADY_RATE = 0.05  # 1/s, of the steady mean of the forces on the quadrotors, once tared: drift and wind
 LEAST_DOUBT, DOUBT_TIME = 0.008, 0.5  # s of an unconfirmed force that exclude a contact, and the longest exclusion
 BEAM = -1.0  # number of the beam in place of that of a guard
@@ -131,7 +131,7 @@ def guard_touched(square: Number, shown: Number, least: Number, seen: Number) ->
         least: square of the threshold, or of the force on the payload if that is larger [N²].
         seen: 1 if the joints have measured it, else 0.
     """
-    return where(square > least, where(shown > CONFIRMED * square, square * seen, 0.0), 0.0)
+    return where(square > least, where(shown > CONFIRMED_SHARE * square, square * seen, 0.0), 0.0)
 
 
 @elementwise
@@ -155,7 +155,7 @@ def number_of(strength: Number, strongest: Number, number: Number) -> Number:
 @elementwise
 def confirms(square: Number, strongest: Number, shown: Number) -> Number:
     """1 if this is the strongest force and the momentum residual confirms it, else 0."""
-    return where(square == strongest, where(shown > CONFIRMED * square, 1.0, 0.0), 0.0)
+    return where(square == strongest, where(shown > CONFIRMED_SHARE * square, 1.0, 0.0), 0.0)
 
 
 @law
@@ -195,8 +195,8 @@ def beam_touched(k: ContactDetector, steepest: Number, d: Deviations, matched: N
     """1 if the beam touches now, else 0; with the square of the `steepest` slope of the push [N²/s²]."""
     p, T = d.push, d.momentum
     square, on_guards = square_of(p), greatest(square_of(d.outside))
-    least = where(matched > 0.0, SHARP, STEEP)
-    shown = where(p.x * T.x + p.y * T.y > CONFIRMED * square, 1.0, 0.0)
+    least = where(matched > 0.0, RISE_AT_WALL, RISE_ANYWHERE)
+    shown = where(p.x * T.x + p.y * T.y > CONFIRMED_SHARE * square, 1.0, 0.0)
     return where(square > on_guards, where(steepest > least * least, shown, 0.0), 0.0)
 
 
@@ -222,7 +222,7 @@ def by_line_of_action(
     crossed = may_act_on(g.quadrotors.x, g.quadrotors.y, g.guards, T.x, T.y, N)
     known = maximum(greatest(crossed * guards.matched), beam.matched)
     guard = greatest(where(known > 0.0, guards.matched, 1.0) * crossed * k.numbers)
-    slope = where(known > 0.0, SHARP, STEEP)
+    slope = where(known > 0.0, RISE_AT_WALL, RISE_ANYWHERE)
     along = -N * T.x / maximum(T.x * T.x, k.threshold * k.threshold * 0.25) - g.payload.y
     touched = where(m.steepest > slope * slope, where(guard > 0.0, guard, BEAM), 0.0)
     return touched, minimum(maximum(along, -g.half), g.half)

@@ -10,7 +10,7 @@ low-pass of bandwidth ω leaves ratio · σ √(ω T/4N); it delays gusts by 2/�
 on `iris`, 11 · 0.005 √(50/2) = 0.3 N along x after 50 s.
 
 A floor's friction and a wall would be taken for wind as well, and the push for its opposite, which the pilot then
-follows. So nothing is subtracted in lift, landing and contact, and never more than the drag of `FASTEST`.
+follows. So nothing is subtracted in lift, landing and contact, and never more than the drag of `FASTEST_WIND`.
 """
 
 from collections.abc import Iterator, Sequence
@@ -28,7 +28,7 @@ from tandemlift.core.vector import ZERO, Absent, Vec3, total, vec3
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import Quadrotor
 
-FASTEST, DENSITY = 8.0, 1.225  # m/s, of a wind beyond that of the tare; kg/m³
+FASTEST_WIND, DENSITY = 8.0, 1.225  # m/s, of a wind beyond that of the tare; kg/m³
 
 
 class PayloadDrag(NamedTuple):
@@ -94,7 +94,7 @@ def payload_drag_from(vehicle: Vehicle, bandwidth: float, step: float) -> Payloa
     beam = array(vehicle.payload.areas) * vehicle.payload.drag_coefficient
     quadrotors = np.sum([array(q.areas) * q.drag_coefficient for q in vehicle.quadrotors], axis=0)
     x, y = beam[:2] / quadrotors[:2]
-    largest = vec3(0.5 * DENSITY * FASTEST**2 * beam)
+    largest = vec3(0.5 * DENSITY * FASTEST_WIND**2 * beam)
     return PayloadDrag(number(x), number(y), largest, low_pass(bandwidth, step))
 
 

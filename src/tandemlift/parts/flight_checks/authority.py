@@ -17,9 +17,10 @@ from tandemlift.parts.flight_checks.hover_loads import ALWAYS, Loads, VehicleLoa
 from tandemlift.parts.rotors.hover import CONTROL, HoverFacts
 
 AXES = ("roll", "pitch", "yaw")
-PUSH, PUSHED = 3.0, 3.5  # N, of a hand that is not gentle with a vehicle of that many kg; it scales with the mass
-TILTED = 0.5  # rad, that a controller without a limit may tilt
-CLOCKED = 0.95  # of the largest thrust that a flight with scheduled guidance may need
+HAND_FORCE = 3.0  # N, of a hand that is not gentle; it scales with the mass …
+HAND_MASS = 3.5  # kg … from that of a vehicle with this one
+UNLIMITED_TILT = 0.5  # rad, that a controller without a limit may tilt
+SCHEDULED_SHARE = 0.95  # of the largest thrust that a flight with scheduled guidance may need
 
 
 def authority_checks(
@@ -51,7 +52,7 @@ def _at(when: str) -> str:
 
 def thrust_check(hover: HoverFacts, loads: Loads, by_hand: float | None) -> CheckResult:
     """Compare the thrust for the worst vertical load with the usable thrust of all rotors."""
-    lift, fraction = hover.faulty_lift, CLOCKED if by_hand is None else by_hand
+    lift, fraction = hover.faulty_lift, SCHEDULED_SHARE if by_hand is None else by_hand
     limit, needs = fraction * lift, lambda load: hover.weight - min(float(load.force[2]), 0.0)
     worst = loads.worst(lambda load: needs(load) - limit, hover.mass, loads.distance)
     needed = needs(worst)
@@ -73,7 +74,8 @@ def tilt_check(hover: HoverFacts, loads: Loads, tilt: float | None) -> CheckResu
         by_thrust = math.sqrt(max(lift**2 - up**2, 0.0))
         return by_thrust if tilt is None else min(by_thrust, up * math.tan(tilt))
 
-    turns = np.sqrt((tilt or TILTED) * np.diag(hover.vehicle.inertia)[:2] / hover.authority[:2])  # s, to half the tilt
+    inertia = np.diag(hover.vehicle.inertia)[:2]
+    turns = np.sqrt((tilt or UNLIMITED_TILT) * inertia / hover.authority[:2])  # s, to half the tilt
     loads = loads._replace(lag=loads.lag + float(turns.mean()))
     worst = loads.worst(lambda load: load.across - limit_of(load), hover.mass, loads.distance)
     limit = limit_of(worst)
@@ -105,7 +107,7 @@ def moment_checks(hover: HoverFacts, loads: Loads) -> Iterator[CheckResult]:
 
 def push_checks(hover: HoverFacts) -> Iterator[CheckResult]:
     """Compare a push in proportion to the mass with the one at which a rotor saturates: a warning to a hand."""
-    push = PUSH * hover.vehicle.mass / PUSHED
+    push = HAND_FORCE * hover.vehicle.mass / HAND_MASS
     x, y, _ = max(hover.vehicle.lever_arms, key=lambda arm: math.hypot(arm[0], arm[1]))
     far = math.hypot(x, y)
     up = np.array([0.0, 0.0, 1.0])

@@ -24,11 +24,11 @@ from tandemlift.parts.mechanics.rigid_body import InitialTable
 from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable
 from tandemlift.parts.rotors.hover import HoverFacts
 
-BEYOND = 4.0  # times the rotors' moment, up to which flights recover; found by flights of mission flight-ready
-TILTED = 0.4  # rad, of the commanded attitude; likewise
-FASTEST = {"rotors": 5.0, "ideal": 10.0}  # m/s, at a start from which flights recover; found by flights, as above
+MOMENT_FACTOR = 4.0  # times the rotors' moment, up to which flights recover; found by flights of mission flight-ready
+LARGEST_TILT = 0.4  # rad, of the commanded attitude; likewise
+LARGEST_SPEED = {"rotors": 5.0, "ideal": 10.0}  # m/s, at a start from which flights recover; found by flights, as above
 SPINNING = 20.0  # rad/s, too fast for any vehicle of this kind
-TURNS = (0.35, 0.35, 2.0)  # rad, about each axis until a rotation is stopped, as FASTEST
+TURNS = (0.35, 0.35, 2.0)  # rad, about each axis until a rotation is stopped, as LARGEST_SPEED
 SETTLED = np.array([1.0 + 1e-9])  # z of constant signals, off the pole that an integrator has at 1
 DRIVEN = {"lambda_1": "far from its surface", "lambda_2": "against disturbances"}  # purpose of each gain of nftsmc
 MOTIONS = ("x", "y", "z", *AXES)
@@ -46,31 +46,34 @@ def start_checks(
         return
     asked, i, authority = response.at(SETTLED)[0].real, initial, hover.authority
     for axis, name in enumerate(AXES):
-        value, limit = abs(asked[axis + 1, 2] @ i.euler + asked[axis + 1, 3] @ i.rates), BEYOND * float(authority[axis])
+        value, limit = (
+            abs(asked[axis + 1, 2] @ i.euler + asked[axis + 1, 3] @ i.rates),
+            MOMENT_FACTOR * float(authority[axis]),
+        )
         text = ""
         if value > limit:  # the rest takes a tenth of a second
             law, can = first_command(controller, hover.vehicle, step, i)[axis + 1], hover.largest_moments[axis]
             text = (
                 f"at the start the controller, linear about hover, asks for {value:.3g} N m in {name} (its law "
                 f"commands {abs(law):.4g}); the rotors can exert {can:.3g} in hover, {authority[axis]:.3g} by "
-                f"allocation.weights, and flights recover from {BEYOND:g} times the latter: start nearer to rest "
-                '(initial.euler, initial.rates), lower the gains, or take allocation.method = "constrained"'
+                f"allocation.weights, and flights recover from {MOMENT_FACTOR:g} times the latter: start nearer to "
+                'rest (initial.euler, initial.rates), lower the gains, or take allocation.method = "constrained"'
             )
         yield judged("start", value, limit, "N m", text, subject=name)
     for axis, along in ((0, 1), (1, 0)):
         place, speed, angle = asked[axis + 1, 0, along], asked[axis + 1, 1, along], asked[axis + 1, 2, axis]
         tilt = abs(place * i.position[along] + speed * i.velocity[along]) / max(abs(angle), 1e-12)
         text = (
-            f"at the start the controller commands {tilt:.3g} rad of tilt along {'xy'[along]}, and {TILTED:g} rad is "
-            "what flights recover from: start nearer to the reference (initial.position, initial.velocity), or set "
-            "controller.max_tilt"
+            f"at the start the controller commands {tilt:.3g} rad of tilt along {'xy'[along]}, and {LARGEST_TILT:g} "
+            "rad is what flights recover from: start nearer to the reference (initial.position, initial.velocity), or "
+            "set controller.max_tilt"
         )
-        yield judged("start", tilt, TILTED, "rad", text, subject=f"tilt along {'xy'[along]}")
+        yield judged("start", tilt, LARGEST_TILT, "rad", text, subject=f"tilt along {'xy'[along]}")
 
 
 def motion_checks(initial: InitialTable, hover: HoverFacts, *, real: bool) -> Iterator[CheckResult]:
     """Check speed and rates at the start; `real`: real rotors are running."""
-    speed, fastest = float(np.linalg.norm(initial.velocity)), FASTEST[hover.actuators.model]
+    speed, fastest = float(np.linalg.norm(initial.velocity)), LARGEST_SPEED[hover.actuators.model]
     limits = np.full(3, SPINNING)
     if real:
         inertia = np.diag(hover.vehicle.real_inertia(hover.plant))

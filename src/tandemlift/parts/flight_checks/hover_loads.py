@@ -26,7 +26,7 @@ SIGMAS = 2.0  # standard deviations of turbulence
 SPAN, SPANS = 4.0, 81  # σ of a push before and after its peak, and times within
 STANDS = 5.0  # s after a push, by which a vehicle that was not carried away stands again
 ALWAYS = "always"  # when loads act that neither pushes nor gusts make
-SLOWEST = 1e-3  # m/s, of the wind about which drag is linearised
+LEAST_WIND = 1e-3  # m/s, of the wind about which drag is linearised
 
 
 Course: TypeAlias = "Sequence[tuple[float, VehicleLoads]]"
@@ -104,7 +104,7 @@ class AirPart(NamedTuple):
 def drag_on(part: AirPart, R: Array, air: Array, eddies: Array) -> tuple[Array, Array]:
     """(The drag of a part at rest in air [N, body axes], its change by each eddy as a row (3 × 3))."""
     v = R.T @ air
-    speed = max(float(np.linalg.norm(v)), SLOWEST)
+    speed = max(float(np.linalg.norm(v)), LEAST_WIND)
     slope = speed * np.eye(3) + np.outer(v, v) / speed
     return np.array(quadratic_drag(vec3(part.drag), vec3(-v))), (eddies @ R) @ slope.T * part.drag
 

@@ -32,11 +32,11 @@ from numpy.typing import NDArray
 from tandemlift.core.errors import CheckResult, judged, warned
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.parts.controllers.interface import ControllerTable
-from tandemlift.parts.estimation.disturbance_observer import ObserverTable
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
 from tandemlift.parts.flight_checks.controller_response import INPUTS, controller_response
 from tandemlift.parts.guidance.alternation import CROSSOVER, force_curvature
 from tandemlift.parts.guidance.compliance import ComplianceTable
+from tandemlift.parts.guidance.disturbance_observer import ObserverTable
 from tandemlift.parts.guidance.guidance import PilotTable
 from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable
 from tandemlift.parts.rotors.allocation import AllocationTable, hover_moments
@@ -44,11 +44,11 @@ from tandemlift.parts.rotors.hover import HoverFacts
 from tandemlift.parts.sensors.sensors_table import SensorsTable
 
 LOOPS = ("z", "roll", "pitch", "yaw")
-LOWEST, HIGHEST, POINTS = 0.02, 1000.0, 120  # rad/s
-MIXED = 1e-9  # of a loop, below which axes do not mix
-TURNED = 0.4 * math.pi  # rad, of a loop that is not stable
+LOWEST_FREQUENCY, HIGHEST_FREQUENCY, FREQUENCIES = 0.02, 1000.0, 120  # rad/s
+MIXING_LIMIT = 1e-9  # of a loop, below which axes do not mix
+LOOP_TURN = 0.4 * math.pi  # rad, of a loop that is not stable
 CLEAR = 0.25  # tolerance of the slope at low frequencies, from which the number of integrators is found
-NEAR = 0.3  # of the delay that a loop tolerates
+DELAY_SHARE = 0.3  # of the delay that a loop tolerates
 GIVEN_AWAY = 0.1  # of the priority of roll or pitch: that of a thrust which does not keep the weight
 NOTABLE = 0.5  # of the payload's mass, as an error of the measured push
 
@@ -126,7 +126,7 @@ def loop_checks(loop: ControlLoop) -> Iterator[CheckResult]:
         else:
             what = f"the {found.axis} loop tolerates {limit:.3g} ms of delay with the rotors' lag, and {parts}"
         remedy = _remedy(loop.push, hover.vehicle.payload.mass)
-        yield judged("delay", value, limit, "ms", f"{what}{remedy}", subject=found.axis, near=NEAR)
+        yield judged("delay", value, limit, "ms", f"{what}{remedy}", subject=found.axis, near=DELAY_SHARE)
 
 
 def _remedy(push: PushFeedback | None, payload: float) -> str:
@@ -189,15 +189,15 @@ def loop_delays(loop: ControlLoop) -> Iterator[LoopDelay]:
     response = controller_response(loop.controller, hover.vehicle, h) if real else None
     if response is None:
         return
-    w = np.geomspace(LOWEST, min(HIGHEST, 0.9 * math.pi / h), POINTS)
+    w = np.geomspace(LOWEST_FREQUENCY, min(HIGHEST_FREQUENCY, 0.9 * math.pi / h), FREQUENCIES)
     delay = round(hover.actuators.delay / h) * h + 0.5 * h + loop.readings.common
     K = response.at(np.exp(1j * w * h)) * np.exp(-1j * w[:, None, None] * loop.readings.additional)[..., None]
     lagging = np.mean(1.0 / (1.0 + 1j * np.multiply.outer(w, hover.lags)), axis=1)
     loops = eigenvalues_by_axis(open_loop(loop, w, K) * lagging[:, None, None])
     turns = [excess_turns(w, L) for L in loops]
-    stable = abs(sum(turns)) < TURNED  # where two loops meet, they may be interchanged
+    stable = abs(sum(turns)) < LOOP_TURN  # where two loops meet, they may be interchanged
     for axis, L, turned in zip(LOOPS, loops, turns, strict=True):
-        bears, crossover = delay_to_crossing(w, L) if stable or abs(turned) < TURNED else (0.0, math.nan)
+        bears, crossover = delay_to_crossing(w, L) if stable or abs(turned) < LOOP_TURN else (0.0, math.nan)
         yield LoopDelay(axis, delay, bears, crossover)
 
 
@@ -250,7 +250,7 @@ def eigenvalues_by_axis(L: NDArray[np.complex128]) -> NDArray[np.complex128]:
     """The eigenvalues (4, w) of a loop (w, 4, 4), each followed from its axis at the highest frequency."""
     own = np.einsum("wii->wi", L)
     mixed = np.abs(L - own[:, None] * np.eye(4)).max()
-    if not np.isfinite(L).all() or mixed <= MIXED * np.abs(own).min():
+    if not np.isfinite(L).all() or mixed <= MIXING_LIMIT * np.abs(own).min():
         return own.T
     values, vectors = np.linalg.eig(L)
     orders = np.array(list(itertools.permutations(range(4))))

@@ -16,9 +16,9 @@ from tandemlift.parts.guidance.compliance import ComplianceTable
 from tandemlift.parts.mechanics.push import PushTable
 from tandemlift.parts.rotors.hover import HoverFacts
 
-STEEPEST = 1.875  # of the quintic smooth step: its largest slope
-SHARPEST = 10.0 / math.sqrt(3.0)  # and its largest second derivative
-UNLIMITED = 100.0  # m/s², of ideal actuators, which give any thrust
+LARGEST_SLOPE = 1.875  # of the quintic smooth step: its largest slope
+LARGEST_CURVATURE = 10.0 / math.sqrt(3.0)  # and its largest second derivative
+IDEAL_ACCELERATION = 100.0  # m/s², of ideal actuators, which give any thrust
 
 
 class Schedule(NamedTuple):
@@ -74,7 +74,7 @@ class Schedule(NamedTuple):
             return p.land_duration
         heights = self.heights
         height = (heights[-1][1] if heights else p.height) + c.touchdown_depth
-        return max(p.land_duration, STEEPEST * height / c.max_descent_speed)
+        return max(p.land_duration, LARGEST_SLOPE * height / c.max_descent_speed)
 
 
 def lift_checks(schedule: Schedule, least: float) -> Iterator[CheckResult]:
@@ -93,13 +93,13 @@ def lift_checks(schedule: Schedule, least: float) -> Iterator[CheckResult]:
 def haste_checks(schedule: Schedule, hover: HoverFacts) -> Iterator[CheckResult]:
     """Check whether the thrust range suffices for the accelerations of the lift and of a scheduled landing."""
     p, spare = schedule.phases, (hover.lift / hover.weight - 1.0) * GRAVITY
-    limit = min(max(spare, 0.0), GRAVITY) if hover.actuators.model == "rotors" else UNLIMITED
+    limit = min(max(spare, 0.0), GRAVITY) if hover.actuators.model == "rotors" else IDEAL_ACCELERATION
     phases = [("lift", p.lift_duration, p.lift_start)]
     if p.land_start is not None and schedule.compliance is None:
         phases.append(("land", p.land_duration, p.land_start))
     for name, duration, start in phases:
         if start < schedule.end:
-            value = SHARPEST * abs(p.height) / duration**2
+            value = LARGEST_CURVATURE * abs(p.height) / duration**2
             text = (
                 f"phases.{name}_duration = {duration:g} s for {p.height:g} m needs {value:.3g} m/s², and "
                 f"{limit:.3g} m/s² can be flown: set it to "

@@ -21,10 +21,10 @@ from tandemlift.parts.guidance.guidance import PilotTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.sensors.sensors_table import SensorsTable, noise_scale
 
-REMOVED = 0.75  # fraction of the wind on the payload that estimator.wind_compensation subtracts
-CARRIED = 2.0  # m, displacement by gusts that is accepted in turbulence, as in mission gusts
-TARED = 21  # times of the tare
-SELDOM = 0.1  # s between samples, short enough for every loop of such a vehicle
+COMPENSATED_SHARE = 0.75  # fraction of the wind on the payload that estimator.wind_compensation subtracts
+GUST_DISPLACEMENT = 2.0  # m, displacement by gusts that is accepted in turbulence, as in mission gusts
+TARE_TIMES = 21  # times of the tare
+LONGEST_INTERVAL = 0.1  # s between samples, short enough for every loop of such a vehicle
 NOISE_SIGMAS = 4.0  # standard deviations of noise that the threshold must exceed
 
 
@@ -57,9 +57,9 @@ def wind_checks(schedule: Schedule, estimator: EstimatorTable, wind: WindOnParts
     """Compare turbulence, gusts, and the mean wind that the tare leaves, on the payload, with each axis' threshold.
 
     A threshold above the turbulence was chosen for the wind: there a gust fails only if it moves the reference
-    by more than `CARRIED`.
+    by more than `GUST_DISPLACEMENT`.
     """
-    a, removed = schedule.admittance, REMOVED if estimator.wind_compensation == "quadrotors" else 0.0
+    a, removed = schedule.admittance, COMPENSATED_SHARE if estimator.wind_compensation == "quadrotors" else 0.0
     left = 1.0 - removed * np.array([1.0, 1.0, 0.0])  # nothing is subtracted along z
     times, forces = wind_after_tare(schedule, estimator, wind)
     eddies, blown = SIGMAS * left * wind.gusting_payload, left * forces
@@ -67,7 +67,7 @@ def wind_checks(schedule: Schedule, estimator: EstimatorTable, wind: WindOnParts
     middle = 0.5 * (beyond[1:] + beyond[:-1]) * np.diff(times)[:, None]
     way = middle.sum(axis=0) / np.maximum(a.damping, 1e-12)
     for i, (axis, threshold) in enumerate(zip("xyz", a.threshold, strict=True)):
-        gust = 0.0 if eddies[i] > 0.0 and way[i] <= CARRIED else float(blown[:, i].max())
+        gust = 0.0 if eddies[i] > 0.0 and way[i] <= GUST_DISPLACEMENT else float(blown[:, i].max())
         parts = f"turbulence pushes the payload along {axis} with {eddies[i]:.3g} N ({SIGMAS:g} standard deviations)"
         if gust > eddies[i]:
             parts = f"wind and gusts push the payload along {axis} with {gust:.3g} N beyond the tare"
@@ -82,7 +82,7 @@ def wind_after_tare(schedule: Schedule, e: EstimatorTable, wind: WindOnParts) ->
     """Times while pushes count [s] (n,), and the wind's force on the payload less that in the tare [N] (n, 3)."""
     p, end, lifted = schedule.phases, schedule.end, schedule.lifted if schedule.phases.height else 0.0
     begins = lifted if e.tare == "hover" else e.tare_start
-    tared = np.zeros(0) if begins is None else np.linspace(begins, begins + e.tare_duration, TARED)
+    tared = np.zeros(0) if begins is None else np.linspace(begins, begins + e.tare_duration, TARE_TIMES)
     bias = np.mean([wind.on_payload(t) for t in tared], axis=0) if len(tared) else np.zeros(3)
     ready = lifted if begins is None else max(lifted, begins + e.tare_duration)
     until = max(ready, end if p.land_start is None else min(p.land_start, end))
@@ -117,7 +117,7 @@ def sampling_checks(s: SensorsTable, push: float, estimate: float | None) -> Ite
     if estimate is not None:
         served.append(("sensors.motion", s.motion.interval, s.motion.delay, estimate, "the estimate drifts and jumps"))
     for key, interval, delay, serves, then in served:
-        limit = max(serves, SELDOM)
+        limit = max(serves, LONGEST_INTERVAL)
         text = (
             f"{key}.interval = {interval:g} s and {key.removesuffix('.joints')}.delay = {delay:g} s make more than "
             f"{limit:.3g} s: {then}; lower them"

@@ -23,9 +23,9 @@ from tandemlift.core.types import Number, number
 from tandemlift.core.vector import ZERO, Vec3
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
-SLOW = 5.0  # rad/s, of the low-pass: a shake of 0.8 Hz is halved
-NOTICED, FORGOTTEN = 0.17, 0.7  # s, time constants of the means as they grow and decay
-LEAST = 0.5  # of T: what is noise, and no rise or fall
+MEAN_BANDWIDTH = 5.0  # rad/s, of the low-pass: a shake of 0.8 Hz is halved
+NOTICE_TIME, FORGET_TIME = 0.17, 0.7  # s, time constants of the means as they grow and decay
+NOISE_SHARE = 0.5  # of T: what is noise, and no rise or fall
 NO_LIMIT = 1e9  # N/s, of a vehicle whose rotors cannot hover
 CROSSOVER = 14.0  # rad/s, of the attitude loop
 
@@ -107,7 +107,9 @@ def start_alternation(
     found = (2.0 / math.pi / CROSSOVER) * share * force_curvature(vehicle, moments)
     limit = where(found > 0.0, found, NO_LIMIT)
     quiet = AlternationState(LowPassState(ZERO, ZERO), ZERO, ZERO)
-    return Alternation(low_pass(SLOW, step), most, 1.0 / NOTICED, 1.0 / FORGOTTEN, LEAST * limit, limit), quiet
+    return Alternation(
+        low_pass(MEAN_BANDWIDTH, step), most, 1.0 / NOTICE_TIME, 1.0 / FORGET_TIME, NOISE_SHARE * limit, limit
+    ), quiet
 
 
 def force_curvature(vehicle: Vehicle, moments: tuple[Number, Number]) -> Number:

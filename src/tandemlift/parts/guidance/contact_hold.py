@@ -33,7 +33,7 @@ DIAGONAL = 0.38268  # sin 22.5°: above it, a direction has a component along an
 DIRECTIONS, PLACES, HALF_PLACES = 9.0, 8192.0, 4096.0  # in the code of a contact
 HAND_RATE = 40.0  # N/s and N m/s: the fastest change of a push while a contact is near
 TINY = 1e-12  # m²
-ROUND = 6755399441055744.0  # 1.5 · 2^52: adding and subtracting it rounds to a whole number
+ROUNDING = 6755399441055744.0  # 1.5 · 2^52: adding and subtracting it rounds to a whole number
 
 
 class ContactReaction(NamedTuple):
@@ -116,7 +116,7 @@ def code_of(part: Number, normal: Vec3, along: Number) -> Number:
     counted = where(part < 0.0, BEAM, part)
     direction = side_of(-normal.x) * 3.0 + side_of(-normal.y)
     place = maximum(minimum(along * 100.0, 4000.0), -4000.0) + HALF_PLACES
-    return (counted * DIRECTIONS + direction) * PLACES + ((place + ROUND) - ROUND)
+    return (counted * DIRECTIONS + direction) * PLACES + ((place + ROUNDING) - ROUNDING)
 
 
 @law(absent="c")

@@ -15,8 +15,8 @@ from tandemlift.core.law import Absent, choice, law
 from tandemlift.core.trajectories import PhasesTable, Reference, Trajectory
 from tandemlift.core.types import NEVER, Number, PerRotor
 from tandemlift.core.vector import Vec3
-from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
 from tandemlift.parts.guidance.compliance import AssumedPayload
+from tandemlift.parts.guidance.disturbance_observer import DisturbanceEstimate
 from tandemlift.parts.guidance.requests import (
     NO_REQUEST,
     UNKNOWN_STATUS,

@@ -11,7 +11,6 @@ from tandemlift.core.phases import CONTACT, IDLE, LAND, LIFT
 from tandemlift.core.trajectories import Reference, Trajectory
 from tandemlift.core.types import Number
 from tandemlift.core.vector import Absent, Vec3, apply, dot
-from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
 from tandemlift.parts.guidance.above_ground import GroundClearance, above_ground, has_floor
 from tandemlift.parts.guidance.available import AvailableForce, available_acceleration, needed_force, usable_thrust
 from tandemlift.parts.guidance.compliance import Compliance, ComplianceState, compensated_push, compliance_step
@@ -27,6 +26,7 @@ from tandemlift.parts.guidance.contact_hold import (
     turning_out,
     without_wall,
 )
+from tandemlift.parts.guidance.disturbance_observer import DisturbanceEstimate
 from tandemlift.parts.guidance.energy_tank import EnergyTank, EnergyTankState, passivity_damping
 from tandemlift.parts.guidance.following import (
     Following,

@@ -28,11 +28,11 @@ from tandemlift.core.vector import Absent, Vec3, dot, each
 from tandemlift.parts.guidance.admittance import AdmittanceTable
 
 INPUTS, OUTPUTS = 6, 2
-SMALLEST = INPUTS + 1 + 2 * OUTPUTS  # numbers, of one hidden unit
+LEAST_NUMBERS = INPUTS + 1 + 2 * OUTPUTS  # numbers, of one hidden unit
 FORCE, RATE, SPEED = 2.0, 5.0, 0.5  # N, N/s, m/s: that count as one
-SMALL = 0.1  # N: ε
+LEAST_FORCE = 0.1  # N: ε
 TINY = 1e-24  # guards roots
-LARGEST, MOST_UNITS = 100.0, 64  # of a weight, of hidden units
+LARGEST_WEIGHT, MOST_UNITS = 100.0, 64  # of a weight, of hidden units
 # found by `tandemlift train zigzag`, as docs/how-to/train-a-policy.md says
 # fmt: off
 SHIPPED = (
@@ -65,7 +65,7 @@ class PolicyTable(Table, acts='compliance.policy.model = "network"'):
         "push, across it) those of the hidden units and its bias",
         rule="9 H + 2 numbers from -100 to 100, of H hidden units",
         unset="those of the policy that ships",
-        example=[0.0] * SMALLEST,
+        example=[0.0] * LEAST_NUMBERS,
     )
 
     @staticmethod
@@ -113,7 +113,7 @@ def policy_inputs(push: LowPassState[Vec3], v: Vec3) -> tuple[Number, ...]:
     """|F|; its rate along and across F; the velocity along and across F; |v|: each over what counts as one."""
     F, R = push
     size = sqrt(maximum(F.x * F.x + F.y * F.y, TINY))
-    inverse = 1.0 / (size + SMALL)
+    inverse = 1.0 / (size + LEAST_FORCE)
     turns, beside = F.x * R.y - F.y * R.x, F.x * v.y - F.y * v.x
     return (
         size * (1.0 / FORCE),
@@ -140,7 +140,7 @@ def policy_damping(
     F = push.value
     y = layer(policy.outputs, layer(policy.hidden, policy_inputs(push, velocity)))
     along, across = [exp(value * (policy.log_factor * enabled)) for value in y]
-    inverse = 1.0 / (sqrt(maximum(F.x * F.x + F.y * F.y, TINY)) + SMALL)
+    inverse = 1.0 / (sqrt(maximum(F.x * F.x + F.y * F.y, TINY)) + LEAST_FORCE)
     e = Vec3(F.x * inverse, F.y * inverse, 0.0) * policy.root
     more = Vec3(1.0 - across, 1.0 - across, 0.0) * policy.root * policy.root * velocity
     return more - e * ((along - across) * dot(e, velocity)), PolicyChannels(along, across)
@@ -170,11 +170,12 @@ def start_policy(table: PolicyTable, admittance: AdmittanceTable) -> Policy:
 def policy_checks(table: PolicyTable, admittance: AdmittanceTable, guidance: str, step: float) -> Iterator[CheckResult]:
     """Check for a policy without effect, of another size, or whose largest damping is unstable when sampled."""
     if table.weights is not None:
-        count, beyond = len(table.weights), [w for w in table.weights if abs(w) > LARGEST]
-        if count < SMALLEST or (count - OUTPUTS) % (INPUTS + 1 + OUTPUTS):
+        count, beyond = len(table.weights), [w for w in table.weights if abs(w) > LARGEST_WEIGHT]
+        if count < LEAST_NUMBERS or (count - OUTPUTS) % (INPUTS + 1 + OUTPUTS):
             yield refused(f"compliance.policy.weights has {count} numbers: must be 9 H + 2 for H hidden units, as 11")
         if beyond:
-            yield refused(f"compliance.policy.weights has {beyond[0]:g}: each must be from -{LARGEST:g} to {LARGEST:g}")
+            span = f"from -{LARGEST_WEIGHT:g} to {LARGEST_WEIGHT:g}"
+            yield refused(f"compliance.policy.weights has {beyond[0]:g}: each must be {span}")
     if table.model == "none":
         return
     if guidance != "interactive":

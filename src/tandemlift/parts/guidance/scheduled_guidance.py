@@ -9,7 +9,6 @@ from tandemlift.core.law import Absent, law
 from tandemlift.core.trajectories import Reference, ScheduledPhases, Trajectory, reference
 from tandemlift.core.types import Number
 from tandemlift.core.vector import ZERO
-from tandemlift.parts.estimation.disturbance_observer import DisturbanceEstimate
 from tandemlift.parts.guidance.admittance import (
     Admittance,
     AdmittanceState,
@@ -19,6 +18,7 @@ from tandemlift.parts.guidance.admittance import (
     admittance_step,
     gate,
 )
+from tandemlift.parts.guidance.disturbance_observer import DisturbanceEstimate
 from tandemlift.parts.guidance.guidance import Guidance, PilotInput, TimeSpan, checked_input, guide, is_within, run
 from tandemlift.parts.guidance.requests import ReferenceVelocity
 

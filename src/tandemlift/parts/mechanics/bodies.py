@@ -17,7 +17,7 @@ from tandemlift.core.vector import vec3
 from tandemlift.parts.mechanics.rotation import rotation_from_euler
 
 MOST_CORNERS = 32  # of a hull: contact with walls costs time for each
-SIDES, SHORTEST = 8, 1e-3  # of the prism that a rod touches as; m, a rod
+SIDES, SHORTEST_ROD = 8, 1e-3  # of the prism that a rod touches as; m, a rod
 
 Sides = Annotated[tuple[Length, Length, Length], PerAxis(3)]
 Metre = Annotated[float, Field(ge=-1e3, le=1e3)]
@@ -125,8 +125,8 @@ class Body(Table):
             raise must("body", "have ends and radius together, of a rod")
         if self.size is None and any((*self.position, *self.euler)):
             raise must("body", "have no position and no euler without size: they are those of a box")
-        if self.ends is not None and math.dist(*self.ends) < SHORTEST:
-            raise must("body", f"have ends that are {SHORTEST} m or more apart")
+        if self.ends is not None and math.dist(*self.ends) < SHORTEST_ROD:
+            raise must("body", f"have ends that are {SHORTEST_ROD} m or more apart")
         if self.corners is not None:
             check_corners(self.corners)
         return self

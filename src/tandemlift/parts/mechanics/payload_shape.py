@@ -20,10 +20,12 @@ from tandemlift.parts.mechanics.vehicle import parallel_axis_term
 
 SAME = 1e-9  # relative: a saved mission has the numbers of its bodies, too
 KINDS = (".stl", ".obj", ".ply")
-SMALLEST, LARGEST = 1e-3, 20.0  # m, extent of a payload
-FINE, ROUGH = 1e-3, 0.02  # of the extent: how far a mesh may stick out of its hull until corners are added, or silently
+SMALLEST_EXTENT, LARGEST_EXTENT = 1e-3, 20.0  # m, extent of a payload
+FINE_GAP = 1e-3  # of the extent: how far a mesh may stick out of its hull until corners are added
+ROUGH_GAP = 0.02  # of the extent: and silently
 ALIKE = 1e-5  # of the extent: points are as far as this out of a plane alike
-PLACES, COUNTED = (16, 2048), 2e6  # under a mesh at which its layers are counted: how many, and times its triangles
+PLACES = (16, 2048)  # under a mesh at which its layers are counted: how many
+MOST_CROSSINGS = 2e6  # of these times its triangles
 SPREAD = 0.7548776662466927, 0.5698402909980532  # steps of an even sequence in a square (Roberts' R2)
 COMES = ("center_of_mass", "inertia", "products", "corners")  # keys that come from a mesh
 
@@ -90,11 +92,11 @@ def _body(path: str, changed: int, scale: float) -> MeshBody:
         closed, volume = bool(mesh.is_watertight and mesh.is_winding_consistent), float(mesh.volume)
     except Exception as error:  # of whatever kind a reader of files raises
         raise InputError(f"{given}: cannot be read as a mesh: {error}") from error
-    if not SMALLEST <= extent <= LARGEST:
+    if not SMALLEST_EXTENT <= extent <= LARGEST_EXTENT:
         hint = f"looks like millimetres; scale it with mesh_scale = {0.001 * scale:g}"
-        size = f"its extent is {extent:g} m, and must be {SMALLEST:g} m to {LARGEST:g} m"
+        size = f"its extent is {extent:g} m, and must be {SMALLEST_EXTENT:g} m to {LARGEST_EXTENT:g} m"
         raise InputError(
-            f"{given}: {size}" + (f": {hint}" if extent > LARGEST else f", or mesh_scale = {scale:g} larger")
+            f"{given}: {size}" + (f": {hint}" if extent > LARGEST_EXTENT else f", or mesh_scale = {scale:g} larger")
         )
     if not closed:
         raise InputError(f"{given}: must be closed, with all triangles turned outside, or it has no mass{_open(mesh)}")
@@ -107,7 +109,7 @@ def _body(path: str, changed: int, scale: float) -> MeshBody:
         at = np.round(deep[1], 3).tolist()
         raise InputError(f"{given}: its {volume:.4g} m³ count the place {at} m {deep[0]} times: {why}")
     hull, out = few_corners(np.asarray(mesh.vertices, dtype=float))
-    if out > ROUGH * extent:
+    if out > ROUGH_GAP * extent:
         text = f"{given}: sticks out of its convex hull of {MOST_CORNERS} corners, which touches, by {out:.2g} m"
         warnings.warn(text, FlightWarning, stacklevel=2)
     tensor = np.asarray(mesh.moment_inertia, dtype=float) / float(mesh.density)
@@ -135,7 +137,7 @@ def _layers(triangles: Array) -> tuple[int, Array] | None:
     corners = np.ascontiguousarray(triangles.transpose(1, 0, 2))
     normals = np.cross(corners[1] - corners[0], corners[2] - corners[0])
     sizes = np.linalg.norm(normals, axis=1)
-    every = np.arange(int(np.clip(COUNTED / len(sizes), *PLACES)))
+    every = np.arange(int(np.clip(MOST_CROSSINGS / len(sizes), *PLACES)))
     chosen = np.searchsorted(np.cumsum(sizes), (every + 0.5) / len(every) * sizes.sum())
     u, v = (0.5 + np.outer(SPREAD, every)) % 1.0
     u, v = np.where(u + v > 1.0, 1.0 - u, u), np.where(u + v > 1.0, 1.0 - v, v)
@@ -154,7 +156,7 @@ def _layers(triangles: Array) -> tuple[int, Array] | None:
 def few_corners(points: Array) -> tuple[ConvexHull, float]:
     """The convex hull of at most `MOST_CORNERS` of some points, and how far others stick out of it at most [m].
 
-    Corners are added where a point is farthest outside, until none sticks out by `FINE` of the extent.
+    Corners are added where a point is farthest outside, until none sticks out by `FINE_GAP` of the extent.
     """
     extent = float(np.ptp(points, axis=0).max())
     away = np.linalg.norm(points - points.mean(axis=0), axis=1)
@@ -173,7 +175,7 @@ def few_corners(points: Array) -> tuple[ConvexHull, float]:
     while True:
         hull = convex_hull(tuple(map(tuple, points[chosen].tolist())))
         out = (points @ hull.normals.T - hull.offsets).max(axis=1)
-        if out.max() <= FINE * extent or len(chosen) == MOST_CORNERS:
+        if out.max() <= FINE_GAP * extent or len(chosen) == MOST_CORNERS:
             return hull, max(float(out.max()), 0.0)
         chosen.append(farthest(out))
 

@@ -20,7 +20,7 @@ from tandemlift.core.types import Number, number
 from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 
 FOOT = 0.3048  # m
-LOWEST, HIGHEST = 10.0, 1000.0  # ft, between which the standard's low-altitude model holds
+LOWEST_ALTITUDE, HIGHEST_ALTITUDE = 10.0, 1000.0  # ft, between which the standard's low-altitude model holds
 ROOT_3 = 1.7320508075688772
 
 
@@ -123,7 +123,7 @@ def dryden(wind_20ft: float, height: float, airspeed: float, direction: Sequence
         direction: of the mean wind, any length (3), world axes; its horizontal part counts, x if there is none.
         step: dt [s].
     """
-    h = minimum(maximum(height / FOOT, LOWEST), HIGHEST)
+    h = minimum(maximum(height / FOOT, LOWEST_ALTITUDE), HIGHEST_ALTITUDE)
     layer = 0.177 + 0.000823 * h
     vertical, horizontal = 0.1 * wind_20ft, 0.1 * wind_20ft / layer**0.4
     heading = atan2(direction[1], direction[0])

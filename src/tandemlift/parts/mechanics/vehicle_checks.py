@@ -15,7 +15,7 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
 
 BESIDE = 0.05  # m, from the box of all parts
-FARTHEST = 0.5  # m, largest distance of a push from the box of all parts
+LARGEST_DISTANCE = 0.5  # m, largest distance of a push from the box of all parts
 LEAST_RATIO = 1e-12  # of the principal moments of inertia
 PRECISION = 1e-6  # of the allocation
 ABOVE = 0.05  # m, between rotors above each other, because blades bend
@@ -74,7 +74,7 @@ def _strike_checks(vehicle: Vehicle) -> Iterator[CheckResult]:
 
 def on_vehicle_checks(key: str, point: Sequence[float], vehicle: Vehicle) -> Iterator[CheckResult]:
     """Check for a push at a point [m, body axes] that is not on the vehicle; `key` is the point's key."""
-    if vehicle.beside(point) > FARTHEST:
+    if vehicle.beside(point) > LARGEST_DISTANCE:
         low, high = (shown(np.round(corner, 3).tolist()) for corner in vehicle.box)
         given = f"{key} = {shown([float(x) for x in point])}"
         yield refused(f"{given}: must be on the vehicle, whose parts reach from {low} to {high} m")

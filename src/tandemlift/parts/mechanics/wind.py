@@ -26,8 +26,8 @@ from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.rotation import PI, rotation_from_quaternion
 from tandemlift.parts.mechanics.turbulence import (
     FOOT,
-    HIGHEST,
-    LOWEST,
+    HIGHEST_ALTITUDE,
+    LOWEST_ALTITUDE,
     Dryden,
     TurbulenceState,
     WindNoise,
@@ -219,7 +219,7 @@ def gusts_from(w: WindTable) -> list[Gust]:
 
 def wind_checks(table: WindTable) -> Iterator[CheckResult]:
     """Check for turbulence at a height outside the standard."""
-    lowest, highest = LOWEST * FOOT, HIGHEST * FOOT
+    lowest, highest = LOWEST_ALTITUDE * FOOT, HIGHEST_ALTITUDE * FOOT
     held = min(max(table.height, lowest), highest)
     if table.turbulence and abs(held - table.height) > 1e-6 * held:
         yield warned(

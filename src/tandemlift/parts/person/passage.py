@@ -23,8 +23,8 @@ from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.person.person_table import PersonTable, waypoints_from
 
 APART = 0.1  # m, between places on the path
-MOST = 4000  # places
-NEAR = 0.4  # of the room
+MOST_PLACES = 4000  # places
+ROOM_SHARE = 0.4  # of the room
 TURNING = 0.7  # rad/s, at which two hands rotate the vehicle
 
 
@@ -53,7 +53,7 @@ def passage_checks(
         f"wall and touches it: widen corridor.width or the gap by {2.0 * max(guard - room, 0.0):.2g} m or more, or "
         'lead it end on (person.model = "pull" or "two-hands")'
     )
-    yield judged("passage", guard, room, "m", text, near=NEAR)
+    yield judged("passage", guard, room, "m", text, near=ROOM_SHARE)
 
 
 def grip_along(p: PersonTable, vehicle: Vehicle) -> float:
@@ -100,7 +100,7 @@ def places_of(p: PersonTable, corridor: CorridorTable, initial: InitialTable, ve
     way, headings = way_of(p, corridor, initial, vehicle)
     legs = list(itertools.pairwise(way))
     lengths = [float(np.linalg.norm(b - a)) for a, b in legs]
-    if not legs or sum(lengths) > MOST * APART:
+    if not legs or sum(lengths) > MOST_PLACES * APART:
         return None
     points, turned = [way[:1]], [np.array([initial.euler[2]])]
     for (a, b), length, heading in zip(legs, lengths, headings, strict=True):

@@ -12,11 +12,12 @@ from tandemlift.core.errors import CheckResult, refused, warned
 from tandemlift.core.keys import Delay, NonNegative, Positive, Share, Table, key
 from tandemlift.core.low_pass import LowPassState, low_pass
 from tandemlift.core.part import Part
+from tandemlift.core.trajectories import PhasesTable
 from tandemlift.core.types import Number, filled, number
 from tandemlift.core.vector import ZERO, Absent, Vec3, vec3
 from tandemlift.parts.contact.corridor import CorridorTable, Point2
 from tandemlift.parts.estimation.estimator_table import EstimatorTable
-from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.rigid_body import InitialTable, State
 from tandemlift.parts.mechanics.rotation import heading_from
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.person.person import (
@@ -192,6 +193,13 @@ class Walk(NamedTuple):
     state: State
     heading: Number
     lift: Number
+
+
+def walk_from(
+    person: PersonTable, corridor: CorridorTable, state: State, initial: InitialTable, phases: PhasesTable
+) -> Walk:
+    """The data of a mission on which a path depends."""
+    return Walk(waypoints_from(person, corridor), state, initial.euler[2], phases.height)
 
 
 def path_legs_from(p: PersonTable, person: Person | Absent, walk: Walk) -> list[PathLeg]:

@@ -14,7 +14,7 @@ from tandemlift.core.law import law
 from tandemlift.core.types import Number, number
 from tandemlift.core.vector import ZERO, Vec3
 
-MIDDLE, HALF = 10.0, 1.5  # Hz
+CENTRE_FREQUENCY, HALF_WIDTH = 10.0, 1.5  # Hz
 
 
 class Tremor(NamedTuple):
@@ -62,7 +62,7 @@ def tremor_step(k: Tremor, m: TremorState, noise: TremorNoise) -> TremorState:
 
 def tremor(size: float, step: float) -> Tremor:
     """A tremor of a standard deviation [N] along each axis, sampled every `step` [s]."""
-    decay, turn = math.exp(-2.0 * math.pi * HALF * step), 2.0 * math.pi * MIDDLE * step
+    decay, turn = math.exp(-2.0 * math.pi * HALF_WIDTH * step), 2.0 * math.pi * CENTRE_FREQUENCY * step
     square = decay * decay
     return Tremor(
         cosine=decay * math.cos(turn),

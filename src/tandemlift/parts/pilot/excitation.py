@@ -265,13 +265,13 @@ def excitation_checks(table: ExcitationTable, hover: HoverFacts, max_tilt: float
 
 
 TILTING = (("roll", "y"), ("pitch", "x"))  # axes that tilt about body x and about body y
-FINE = 12  # samples of a period of the fastest line
+SAMPLES_OF_A_PERIOD = 12  # samples of a period of the fastest line
 
 
 def over_time(table: ExcitationTable, axis: str, integrals: int = 0) -> Array:
     """The excitation along an axis over its duration, integrated so many times over time (below 0: differentiated)."""
     fastest = max(line.frequency for line in table.lines)
-    s = np.linspace(0.0, table.duration, int(FINE * fastest * table.duration) + 2)
+    s = np.linspace(0.0, table.duration, int(SAMPLES_OF_A_PERIOD * fastest * table.duration) + 2)
     total_of = np.zeros(len(s))
     for line in table.lines:
         if line.axis == axis:

@@ -14,14 +14,14 @@ from tandemlift.core.law import law
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import Absent, total
 from tandemlift.parts.controllers import Command, Disturbance, Measured, control
-from tandemlift.parts.estimation.disturbance_observer import (
+from tandemlift.parts.guidance.admittance import AdmittanceState
+from tandemlift.parts.guidance.disturbance_observer import (
     DisturbanceEstimate,
     DisturbanceObserver,
     ObserverState,
     observer_step,
     unmodelled,
 )
-from tandemlift.parts.guidance.admittance import AdmittanceState
 from tandemlift.parts.guidance.guidance import (
     Guidance,
     checked_input,

@@ -9,7 +9,7 @@ from tandemlift.core.law import elementwise, law
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import total
 
-LEAST, MOST = 0.5, 1.5  # fraction of a thrust that is lost
+LEAST_LOSS, MOST_LOSS = 0.5, 1.5  # fraction of a thrust that is lost
 PRIOR = 10.0  # evidence added for the rotor that is declared lost already
 
 
@@ -45,7 +45,7 @@ class DecisionState(NamedTuple):
 @elementwise
 def share_gone(fit: Number, size: Number, per_spread: Number) -> Number:
     """The most likely fraction of its thrust that a rotor has lost."""
-    return clip((fit + per_spread) / (size + per_spread), LEAST, MOST)
+    return clip((fit + per_spread) / (size + per_spread), LEAST_LOSS, MOST_LOSS)
 
 
 @elementwise

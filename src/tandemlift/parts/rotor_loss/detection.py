@@ -46,9 +46,9 @@ from tandemlift.parts.rotors.allocation import Mixer, wrench
 from tandemlift.parts.rotors.rotor_faults import FaultTable
 
 FOUR = each(4)
-UPRIGHT = 0.3  # least cosine of the tilt
+LEAST_UPRIGHT = 0.3  # least cosine of the tilt
 START_SCATTER = 4.0  # scatter² just after the lift, over its `bound`
-SUPPORTED = 0.15  # of the weight: the force of a floor from which on the vehicle counts as standing
+SUPPORTED_SHARE = 0.15  # of the weight: the force of a floor from which on the vehicle counts as standing
 
 
 Positive4 = Annotated[tuple[Scale, Scale, Scale, Scale], PerAxis(4)]
@@ -174,7 +174,7 @@ def confirmed(k: RotorLossDetection, verdict: DecisionState, t: Number) -> Numbe
 @law
 def residual(k: RotorLossDetection, m: DetectionState, pilot_input: PushedState) -> NumberSet:
     """The force along body z [N] and the moment [N·m, body axes] that modelled rotors do not explain, as a set."""
-    upright = maximum(body_z_axis(pilot_input.state.attitude).z, UPRIGHT)
+    upright = maximum(body_z_axis(pilot_input.state.attitude).z, LEAST_UPRIGHT)
     made, p, o = wrench(k.effect, m.thrusts.value), m.momentum.rate, m.others.value
     return FOUR(
         (p[0] - o[0]) / upright - made.thrust,
@@ -229,7 +229,7 @@ def variance(scatter: Number, observed: Number) -> Number:
 @law
 def flies_free(k: RotorLossDetection, r: NumberSet, active: Number) -> Number:
     """1 if the vehicle flies and no floor supports it, else 0; r: the residual."""
-    return where(r[0] > SUPPORTED * GRAVITY * k.mass, 0.0, active)
+    return where(r[0] > SUPPORTED_SHARE * GRAVITY * k.mass, 0.0, active)
 
 
 @law

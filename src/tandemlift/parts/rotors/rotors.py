@@ -121,33 +121,33 @@ def rotors_from(
 
 
 def start_rotors(
-    table: ActuatorsTable,
+    actuators: ActuatorsTable,
     faults: tuple[FaultTable, ...],
     vehicle: Vehicle,
     step: float,
     *,
     weights: tuple[tuple[float, ...], ...],
-    floor: Number | None,
+    floor_height: Number | None,
     delayed: bool,
     scale: Number,
 ) -> tuple[Rotors, RotorState, PerRotor] | tuple[Absent, Absent, PerRotor]:
     """The rotors, their state and thrusts [N] at t = 0.
 
     Args:
-        table: `[actuators]`.
+        actuators: its table.
         faults: the real ones.
         vehicle: the nominal one.
         step: time step [s].
         weights: of the allocation, which distribute the hover thrust.
-        floor: height z [m] of a floor with ground effect, or None.
+        floor_height: z [m] of a floor with ground effect, or None.
         delayed: whether commands arrive late.
         scale: real over modelled thrust.
     """
     hover = hover_thrusts(vehicle, weights)
-    if table.model == "ideal":
+    if actuators.model == "ideal":
         return Absent(), Absent(), hover
-    rotors = rotors_from(vehicle, step, delayed, faults, floor, scale)
-    return rotors, *_start(hover, rotors, table.start == "hover", scale)
+    rotors = rotors_from(vehicle, step, delayed, faults, floor_height, scale)
+    return rotors, *_start(hover, rotors, actuators.start == "hover", scale)
 
 
 @cached

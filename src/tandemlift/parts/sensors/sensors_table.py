@@ -11,7 +11,7 @@ from tandemlift.core.algebra import sqrt
 from tandemlift.core.keys import Delay, Exactly3, NonNegative, Positive, Size, Table, is_number, key, must
 from tandemlift.parts.sensors.vehicle_sensors import ADDITIONAL, DEVICES, SENSORS, sensors_on
 
-FINEST = 1e-9  # resolution of a sensor, in its unit
+FINEST_RESOLUTION = 1e-9  # resolution of a sensor, in its unit
 BOUNDLESS = "without a bound"
 
 Interval = Annotated[float, Field(ge=0.0, le=10.0)]  # s
@@ -19,8 +19,8 @@ Turn = Annotated[float, Field(ge=0.0, le=1.0)]  # rad
 
 
 def _step_of_quantisation(value: float) -> float:
-    if 0.0 < value < FINEST:
-        raise must("size", f"be 0 (for none) or at least {FINEST}")
+    if 0.0 < value < FINEST_RESOLUTION:
+        raise must("size", f"be 0 (for none) or at least {FINEST_RESOLUTION}")
     return value
 
 
@@ -31,7 +31,7 @@ BIAS = "standard deviation of the constant error, which is drawn from the seed"
 DRIFT = "growth of the error, a random walk"
 STEP = "step of quantisation"
 RANGE = "largest reading, either way"
-FINE = f"0 for none, or at least {FINEST:g}"
+FINE = f"0 for none, or at least {FINEST_RESOLUTION:g}"
 THE_SENSORS = "the sensor's unit"
 STEPS = "at most 10,000 steps"
 OFTEN = "time between samples, rounded to whole steps; 0 samples at every step"

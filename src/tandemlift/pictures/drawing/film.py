@@ -17,8 +17,8 @@ from PIL import Image, ImageDraw, ImageFont
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import atomic_write
 from tandemlift.core.types import Array, Progress
-from tandemlift.engines.models.camera import ANGLE, CAMERAS, Camera
-from tandemlift.engines.models.camera import camera_of as camera_of
+from tandemlift.engines.models.visuals import CAMERAS, Camera
+from tandemlift.engines.models.visuals import camera_of as camera_of
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.ground import View
 from tandemlift.pictures.drawing.second_studio import drawn_by_two
@@ -27,6 +27,7 @@ from tandemlift.pictures.drawing.studio import Studio, pyvista
 from tandemlift.pictures.drawing.video import check_size, ffmpeg, write_mp4
 
 PICTURE_OPTIONS, ANIMATION_OPTIONS = ("--time",), ("--from", "--to", "--fps", "--speed")
+ANGLE = np.radians(30.0)  # of view, vertical [rad]
 SIZES = {".png": (1280, 720), ".gif": (640, 360), ".mp4": (1280, 720)}  # pixels
 LONGEST = 20.0  # s, length of an animation: a longer flight is shown faster, unless a speed is given
 PALETTE = ((Image.Quantize.MEDIANCUT, 160), (Image.Quantize.MAXCOVERAGE, 90))  # for fine shades, and for rare colours

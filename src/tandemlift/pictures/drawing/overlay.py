@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from tandemlift.core.types import Array
-from tandemlift.flight.data_frames import column_names
+from tandemlift.flight.channels import column_names
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.panels import (
     FEW,

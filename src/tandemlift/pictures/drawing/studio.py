@@ -15,7 +15,6 @@ from PIL import Image
 
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.types import Array
-from tandemlift.engines.models.camera import NEAR
 from tandemlift.engines.models.visuals import (
     GLASS,
     PUSH_COLOR,
@@ -31,6 +30,7 @@ from tandemlift.pictures.drawing.stage import FlightStage
 
 PATH, AHEAD, FALL, FRAME = "#1f5fbf", "#9db7d6", "#8a9097", "#4d5a6b"  # flown, to come, on the floor; edges of walls
 SHADE = "#9a9fa6"
+NEAR = 0.05  # m, distance of the near clipping plane
 ROWS = 720  # of the picture for which widths of lines are given [pixels]
 FINE = 2  # a picture is drawn with so many times its pixels each way, and then reduced
 SPINNING = 40.0  # rad/s, drawn speed of the blades; at the true speed they would alias

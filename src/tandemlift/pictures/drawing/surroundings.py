@@ -11,7 +11,7 @@ from matplotlib.collections import LineCollection
 
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.parts.contact.corridor import WallTable
+from tandemlift.parts.contact.surroundings import WallTable
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.pictures.drawing.scene import NEAR, Scene3D, on_paper
 from tandemlift.pictures.drawing.style import EDGE, GLASS

@@ -9,7 +9,7 @@ import numpy as np
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.core.vector import Quat
 from tandemlift.flight.record import Flight
-from tandemlift.parts.contact.standing import GroundTable, floor_under
+from tandemlift.parts.contact.surroundings import floor_height_of
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.vehicle import Vehicle, mixer
 
@@ -83,13 +83,5 @@ def skeleton(vehicle: Vehicle) -> Skeleton:
 
 
 def floor_height(flight: Flight) -> float | None:
-    """Height z of the floor [m], or None where there is none.
-
-    A mission that does not give it means the height at which the vehicle stands on it at the start.
-    """
-    ground = GroundTable.model_validate(flight.mission.get("ground", {}))
-    if ground.model == "none" or ground.height is not None:
-        return ground.height if ground.model != "none" else None
-    vehicle, mission = Vehicle.from_mission(flight.mission), flight.mission
-    scale, start = mission.get("plant", {}).get("mass_scale", 1.0), mission["initial"]["position"][2]
-    return floor_under(vehicle, ground, scale, mission["mission"]["step"], start).height
+    """Height z of the floor [m], or None where there is none."""
+    return floor_height_of(Vehicle.from_mission(flight.mission), flight.mission)

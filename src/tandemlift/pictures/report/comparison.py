@@ -6,8 +6,7 @@ import json
 from pathlib import Path
 
 from tandemlift.analysis.studies.comparison import MissionComparison
-from tandemlift.core.file_set import write_together
-from tandemlift.core.files import write_file
+from tandemlift.core.files import write_file, write_together
 from tandemlift.pictures.report.metric_tables import write_metric_tables
 
 

@@ -15,10 +15,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from tandemlift.core.errors import InputError
-from tandemlift.core.file_set import write_together
-from tandemlift.core.files import FLIGHT_FILE, write_file
+from tandemlift.core.files import FLIGHT_FILE, write_file, write_together
 from tandemlift.core.types import Progress
-from tandemlift.flight.printed_summary import notes
 from tandemlift.flight.record import Flight, counted_until
 from tandemlift.pictures.figures.registry import captions, figures_for
 from tandemlift.pictures.report.metric_tables import write_metric_tables
@@ -32,6 +30,7 @@ from tandemlift.pictures.report.page import (
     split_unit,
     write_page,
 )
+from tandemlift.pictures.report.printed_summary import notes
 from tandemlift.pictures.report.second_drawer import draw_by_two
 
 ARRIVED = 0.5  # m: a vehicle that ends farther from its reference has not arrived

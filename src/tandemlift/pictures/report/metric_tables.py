@@ -11,8 +11,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tandemlift.core.file_set import write_files
-from tandemlift.flight.metric_descriptions import metric_of
+from tandemlift.analysis.studies.metric_descriptions import metric_of
+from tandemlift.core.files import write_files
 
 NOTHING = r"\multicolumn{2}{c}{--}"
 NUMBER = "r@{}l"  # the column of a number: the part before its point, and the rest

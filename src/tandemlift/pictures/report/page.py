@@ -19,8 +19,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
+from tandemlift.analysis.studies.metric_descriptions import metric_of
 from tandemlift.core.files import DATA, atomic_write
-from tandemlift.flight.metric_descriptions import metric_of
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.figure import DARK, current_style
 

@@ -8,7 +8,7 @@ from typing import Any
 from pydantic import TypeAdapter, ValidationError
 
 from tandemlift.core.errors import InputError, shown
-from tandemlift.flight import Flight
+from tandemlift.flight.record import Flight
 from tandemlift.missions import Mission
 from tandemlift.pictures.drawing.vehicle import floor_height
 

@@ -10,7 +10,7 @@ from typing import NamedTuple, TypeVar
 
 from tandemlift.core.algebra import chosen, maximum, sqrt, where
 from tandemlift.core.law import law
-from tandemlift.core.phases import DIVERGED, FAR, FLIES, LEFT_FENCE, STRUCK, TURNED_OVER
+from tandemlift.core.phases import DIVERGED, FLIES, LARGEST_DISTANCE, LEFT_FENCE, STRUCK, TURNED_OVER
 from tandemlift.core.types import Number, PerRotor
 from tandemlift.core.vector import Absent, Vec3, dot
 from tandemlift.parts.guidance.fault_detection import distance_outside
@@ -88,7 +88,7 @@ def ending_number(c: CrashLimits, s: State, impulse: Number | Absent) -> Number:
     upright = body_z_axis(s.attitude).z
     number = unless_struck(c.strike, impulse, outside_fence(c.fence, s.position))
     sound = where(upright > c.min_upright, number, where(upright < 2.0, TURNED_OVER, DIVERGED))
-    return where(dot(s.position, s.position) < FAR * FAR, sound, DIVERGED)
+    return where(dot(s.position, s.position) < LARGEST_DISTANCE * LARGEST_DISTANCE, sound, DIVERGED)
 
 
 @law(absent=("crash", "number"))

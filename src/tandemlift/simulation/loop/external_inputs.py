@@ -34,6 +34,7 @@ from tandemlift.parts.mechanics.push import (
     PushTable,
     push_at,
 )
+from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.wind import Gust, WindTable, gust_velocity, gusts_from
 from tandemlift.parts.person.person import PATH_LEG, PathLeg
 from tandemlift.parts.person.person_table import PersonTable
@@ -111,9 +112,9 @@ def draw_normals(number: Number, draw: Number, key0: Number, key1: Number) -> No
     return normals(number, draw, key0, key1)
 
 
-def push_kind(pushes: Sequence[PushTable], person: PersonTable, *, bends: bool) -> PushSamples[Push]:
-    """Zero pushes of the type that a flight needs: with a moment only if a push has one; on a beam that `bends`."""
-    if bends:
+def push_kind(pushes: Sequence[PushTable], person: PersonTable, vehicle: Vehicle) -> PushSamples[Push]:
+    """Zero pushes of the type that a flight needs: with a moment only if a push has one, or on a beam that bends."""
+    if vehicle.payload.is_elastic:
         return ON_BEAM
     central = all(p.point == ZERO for p in pushes) and person.model == "none"
     return CENTRAL if central else AT_A_POINT

@@ -1,4 +1,4 @@
-"""Running sums over all steps of a flight, for its metrics; `flight.metric_descriptions` has units and meanings."""
+"""Running sums over all steps, for metrics, whose units and meanings are in `analysis.studies.metric_descriptions`."""
 
 from __future__ import annotations
 

@@ -10,24 +10,5 @@ from tandemlift.engines.registry import machine_of
 from tandemlift.simulation.loop.external_inputs import GAUSSIAN, GUST, LANES, SPAN, InputTables
 from tandemlift.simulation.loop.sources import LeafSpan, delayed_spans, leaf_offset
 from tandemlift.simulation.preparation.compiled_flight import LoopCode
-from tandemlift.simulation.preparation.memory import FlightMemory, FlightStart, TimeGrid
+from tandemlift.simulation.preparation.memory import COUNTS, POINTERS, WORDS, FlightMemory, FlightStart, TimeGrid
 from tandemlift.simulation.preparation.templates import COMMAND, GIVEN, PythonController
-
-__all__ = [
-    "COMMAND",
-    "GAUSSIAN",
-    "GIVEN",
-    "GUST",
-    "LANES",
-    "SPAN",
-    "FlightMemory",
-    "FlightStart",
-    "InputTables",
-    "LeafSpan",
-    "LoopCode",
-    "PythonController",
-    "TimeGrid",
-    "delayed_spans",
-    "leaf_offset",
-    "machine_of",
-]

@@ -6,7 +6,7 @@ step by step by a counter-based generator with the seed's key.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,11 +26,10 @@ from tandemlift.parts.estimation.fused_push import start_push_estimator
 from tandemlift.parts.estimation.navigation import navigator_from, start_navigation
 from tandemlift.parts.estimation.wrench_push import PushInputs, push_and_state
 from tandemlift.parts.guidance.guidance import flight_spans
-from tandemlift.parts.mechanics.rigid_body import State
 from tandemlift.parts.mechanics.structure import seen_state
 from tandemlift.parts.mechanics.wind import wind_noise_of
 from tandemlift.parts.person.person import PersonState
-from tandemlift.parts.person.person_table import PersonTable, Walk, path_legs_from, tremor_noise_of, waypoints_from
+from tandemlift.parts.person.person_table import PersonTable, path_legs_from, tremor_noise_of, walk_from
 from tandemlift.parts.pilot.pilot import PilotMemory, PilotParameters
 from tandemlift.parts.rotors.allocation import start_allocation
 from tandemlift.parts.rotors.rotors import ActuatorsTable, start_rotors
@@ -127,21 +126,16 @@ def start_pilot(facts: Facts) -> tuple[PilotParameters, PilotMemory]:
     return parameters, PilotMemory(controller=memory, allocation=allocated, **memories)
 
 
-def start_estimators(
-    facts: Facts, state: State, readings: Readings | Absent, floor: float | None
-) -> tuple[perception.Estimators | Absent, perception.EstimatorState | Absent]:
-    """The estimators of a mission and their memory at t = 0, for the nominal vehicle; or `Absent`.
-
-    `floor`: height z [m] of a floor with ground effect, or None.
-    """
+def start_estimators(facts: Facts, readings: Readings | Absent) -> tuple[Any, Any]:
+    """The estimators of a mission and their memory at t = 0, for the nominal vehicle; or `Absent`."""
     if isinstance(readings, Absent):
         return Absent(), Absent()
     e, s, vehicle, step, interval = (facts[name] for name in ("estimator", "sensors", "vehicle", "step", "interval"))
     push, pushed = start_push_estimator(
-        e, s, vehicle, readings.imu, interval, facts["observer"].rotor_delay + s.delay, floor
+        e, s, vehicle, readings.imu, interval, facts["observer"].rotor_delay + s.delay, facts["floor_height"]
     )
     stopped = each(vehicle.rotor_count)(*[0.0] * vehicle.rotor_count)
-    observer = navigator_from(e, s, vehicle.center_of_mass, step)
+    observer, state = navigator_from(e, s, vehicle.center_of_mass, step), facts["state"]
     navigation, inputs = start_navigation(observer, state), PushInputs(readings, stopped, 0.0, 0.0, interval)
     parts, memories = facts.started("estimators")
     held: perception.HeldEstimates | Absent = Absent()
@@ -162,22 +156,19 @@ def start_estimators(
     return estimators, perception.EstimatorState(pushed, navigation, held=held, **memories)
 
 
-def start_perception(
-    facts: Facts, state: State, at_rest: Callable[[], Any], floor: float | None
-) -> tuple[dict[str, Any], dict[str, Any], SensorNoise | Absent]:
-    """Parameters and memory of sensors and estimators before the first step, and the layout of their noise.
-
-    `at_rest` gives the perfect readings at the start. `floor`: height z [m] of a floor with ground effect, or None.
-    """
+def start_perception(facts: Facts) -> tuple[dict[str, Any], dict[str, Any], SensorNoise | Absent]:
+    """Parameters and memory of sensors and estimators before the first step, and the layout of their noise."""
     sensors, faulty, step, count = facts["sensors"], facts["sensor_faults"], facts["step"], facts["vehicle"].count
     devices, noise = sensors_from(sensors, count, step, facts["chance"])
     sensing: Any = Absent()
     readings: Any = Absent()
     if not isinstance(devices, Absent):
-        waits = first_samples(sensors, step)
-        sensing = start_sensing(devices, state, at_rest(), state.attitude, waits)
+        body, waits = facts["body"], first_samples(sensors, step)
+        perfect = facts.call(readings_at_rest, {"plant": body, "s": facts["state"]})
+        state = seen_state(body.structure, facts["shape"], facts["state"])
+        sensing = start_sensing(devices, state, perfect, state.attitude, waits)
         readings = readings_of(sensing)
-    estimators, known = start_estimators(facts, state, readings, floor)
+    estimators, known = start_estimators(facts, readings)
     if facts["supervised"]:
         watchdog = facts["supervision"].watchdog
         estimators, known = with_watchdogs(watchdog, sensors, step, estimators, known, readings)
@@ -189,62 +180,72 @@ def start_perception(
     return {"sensors": devices, "estimator": estimators}, memory, noise
 
 
+STARTED: Mapping[str, Callable[..., Any]] = {
+    "state": start_state,
+    "body": plant_from,
+    "grip": lambda body, state: Absent() if isinstance(body.floor, Absent) else _grip(body.floor, state),
+    "near": lambda body: near_walls_from(body.walls),
+    "hand": push_kind,
+    "floor_height": lambda ground, body: body.floor.height if ground.effect else None,  # m: of one with ground effect
+    "delays": delays_from,
+    "rotors": start_rotors,
+    "weights": lambda allocation: allocation.weights,
+    "delayed": lambda delays: bool(delays[2]),
+    "scale": lambda plant: plant.thrust_scale,
+    "thrusts": lambda rotors: rotors[2],
+    "shape": start_shape,
+    "elastic": lambda shape: not isinstance(shape, Absent),
+    "seed": lambda mission: mission.seed,
+    "chance": lambda seed: np.random.default_rng(seed),
+    "walk": walk_from,
+}
+"""What is made of a mission's facts at t = 0: the true body, its surroundings, its rotors, the person's way."""
+
+
 def assemble(mission: Mission) -> AssembledFlight:
     """Assemble the flight of a mission at t = 0.
 
     Raises:
         InputError: a part of the mission cannot be built.
     """
-    facts, step, seed = Facts(mission), mission.mission.step, mission.mission.seed
-    vehicle = facts["vehicle"]
-    delays = facts.call(delays_from)
+    facts = Facts(mission, STARTED)
     pilot, memory = start_pilot(facts)
-    state, plant = start_state(mission), plant_from(mission, vehicle)
-    grip = Absent() if isinstance(plant.floor, Absent) else _grip(plant.floor, state)
-    weights, over = mission.allocation.weights, plant.floor.height if mission.ground.effect else None
-    given: Any = {"weights": weights, "floor": over, "delayed": bool(delays[2]), "scale": mission.plant.thrust_scale}
-    rotors, spinning, thrusts = start_rotors(mission.actuators, mission.faults, vehicle, step, **given)
-    waypoints = waypoints_from(mission.person, mission.corridor)
-    walk = Walk(waypoints, state, mission.initial.euler[2], mission.phases.height)
-    facts.update(chance=np.random.default_rng(seed), walk=walk)
     around, states = facts.started("body")  # the wind is drawn before the sensors: bits hang on the order
-    person = around["person"]
-    bends = mission.vehicle.payload.is_elastic
-    near, hand = near_walls_from(plant.walls), push_kind(mission.pushes, mission.person, bends=bends)
-    shape = start_shape(plant, state, grip, near, thrusts, hand)
-    at_rest = lambda: readings_at_rest(plant, state, shape, grip, near, thrusts, hand)  # noqa: E731
-    senses, sensed, noise = start_perception(facts, seen_state(plant.structure, shape, state), at_rest, over)
-    far, counted = _clearance(plant.walls, near, plant.frame, state), mission.estimator.error_metrics
-    mass, floor = vehicle.mass * mission.plant.mass_scale, mission.ground.model != "none"
-    limits = crash_limits_from(mission.crash, mission.supervision, mass, floor=floor)
+    senses, sensed, noise = start_perception(facts)
+    body, state, near, delays = (facts[name] for name in ("body", "state", "near", "delays"))
+    (rotors, spinning, thrusts), person, limits = facts["rotors"], around["person"], facts.call(crash_limits_from)
     flight_state = FlightState(
         state=state,
         memory=memory,
-        shape=shape,
-        grip=grip,
+        shape=facts["shape"],
+        grip=facts["grip"],
         near=near,
-        touches=start_touches(plant.floor, plant.walls, vehicle.rotor_count),
+        touches=start_touches(body.floor, body.walls, facts["vehicle"].rotor_count),
         rotors=spinning,
-        metrics=start_metrics(far, states["person"], counted=counted and mission.sensors.model != "none"),
+        metrics=start_metrics(
+            _clearance(body.walls, near, body.frame, state),
+            states["person"],
+            counted=mission.estimator.error_metrics and mission.sensors.model != "none",
+        ),
         impulse=Absent() if isinstance(limits.strike, Absent) else 0.0,
         crash=start_crash(limits, state),
         ended=FLIES,
-        detectors=start_detectors(mission.actuators, thrusts, elastic=not isinstance(shape, Absent)),
+        detectors=start_detectors(mission.actuators, thrusts, elastic=facts["elastic"]),
         **(states | sensed),
     )
     model = FlightModel(
         flight_state=flight_state,
         pilot=pilot,
-        plant=plant,
+        plant=body,
         rotors=rotors,
         sources=PilotSources(READS[mission.pilot.state], READS[mission.pilot.push], MAPS[mission.pilot.map]),
         delays=delay_lines_from([s.name for s in mission.sensors.additional], delays),
         limits=limits,
-        finding_limits=finding_limits_from(mission),
+        finding_limits=facts.call(finding_limits_from),
         **(around | senses),
     )
     noises = StepNoise(wind_noise_of(around["wind"]), noise, tremor_noise_of(person))
-    inputs = StepInputs(hand, ZERO, noises, states["person"])
-    legs, seeds = path_legs_from(mission.person, person, walk), np.array(key_from_seed(seed))
+    inputs = StepInputs(facts["hand"], ZERO, noises, states["person"])
+    legs = path_legs_from(mission.person, person, facts["walk"])
     tables = input_tables_from(mission.pushes, mission.wind, mission.all_walls, legs)
-    return AssembledFlight(model, inputs, tables, delays, seeds)
+    return AssembledFlight(model, inputs, tables, delays, np.array(key_from_seed(facts["seed"])))

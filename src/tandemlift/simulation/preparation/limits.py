@@ -7,14 +7,17 @@ from typing import Any
 
 from tandemlift.core.algebra import cos, maximum, minimum, where
 from tandemlift.core.caching import cached
-from tandemlift.core.phases import FLIES, HARD
+from tandemlift.core.phases import CRASH_SPEED, FLIES
 from tandemlift.core.types import GRAVITY, Number, PerRotor
 from tandemlift.core.vector import Absent, Vec3, vec3
-from tandemlift.missions.mission import Mission
-from tandemlift.missions.outcomes import CrashTable, FindingsTable, promise_of
+from tandemlift.missions.outcomes import CrashTable, FindingsTable, PromiseTable, promise_of
+from tandemlift.parts.contact.standing import GroundTable
 from tandemlift.parts.guidance.admittance import AdmittanceTable
+from tandemlift.parts.guidance.compliance import ComplianceTable
 from tandemlift.parts.guidance.supervision import SupervisionTable
 from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle_table import PlantTable
 from tandemlift.parts.rotors.rotors import ActuatorsTable
 from tandemlift.simulation.loop.detectors import ASLEEP, Detectors, FindingLimits, PushLimits
 from tandemlift.simulation.loop.ending import Aftermath, CrashLimits, CrashMemory, OuterFence, Strike
@@ -22,15 +25,17 @@ from tandemlift.simulation.loop.oscillation import OscillationLimits, Swings
 from tandemlift.simulation.loop.thrust_shake import start_shake
 
 
-def crash_limits_from(c: CrashTable, supervision: SupervisionTable, mass: Number, *, floor: bool) -> CrashLimits:
-    """The limits of a flight with this true mass [kg]; each part that it does not have is `Absent`."""
-    fence, watched = supervision.fence, supervision.model == "on"
-    max_impulse = mass * HARD if c.impulse is None else c.impulse
+def crash_limits_from(
+    crash: CrashTable, supervision: SupervisionTable, nominal: Vehicle, plant: PlantTable, ground: GroundTable
+) -> CrashLimits:
+    """The limits of a flight; each part that it does not have is `Absent`."""
+    fence, watched, mass = supervision.fence, supervision.model == "on", nominal.mass * plant.mass_scale
+    max_impulse = mass * CRASH_SPEED if crash.impulse is None else crash.impulse
     return CrashLimits(
-        min_upright=cos(c.tilt) if c.tilt < 3.14159 else -2.0,
-        strike=Strike(mass * GRAVITY, max_impulse) if floor else Absent(),
-        fence=OuterFence(vec3(fence.low), vec3(fence.high), c.fence_margin) if watched else Absent(),
-        aftermath=Aftermath(c.fly_on) if c.fly_on > 0.0 else Absent(),
+        min_upright=cos(crash.tilt) if crash.tilt < 3.14159 else -2.0,
+        strike=Strike(mass * GRAVITY, max_impulse) if ground.model != "none" else Absent(),
+        fence=OuterFence(vec3(fence.low), vec3(fence.high), crash.fence_margin) if watched else Absent(),
+        aftermath=Aftermath(crash.fly_on) if crash.fly_on > 0.0 else Absent(),
     )
 
 
@@ -41,24 +46,32 @@ def start_crash(limits: CrashLimits, state: State) -> Any:
     return CrashMemory(FLIES, 0.0, state, Absent() if isinstance(limits.strike, Absent) else 0.0, 0.0)
 
 
-HEARD = 2.0  # times the threshold, above which a true push should have an effect
-LEAST, LEAST_FORCE = 0.1, 0.01  # of the smallest threshold, and N: the least force after the gate that counts
-UNLIMITED = 1e6  # m/s
+HEARD_FACTOR = 2.0  # times the threshold, above which a true push should have an effect
+LEAST_SHARE, LEAST_FORCE = 0.1, 0.01  # of the smallest threshold, and N: the least force after the gate that counts
+UNLIMITED_SPEED = 1e6  # m/s
 
 
-def finding_limits_from(m: Mission) -> FindingLimits:
-    """The limits of a mission's detectors."""
-    promised, f, vehicle = promise_of(m.promise, m.pilot.guidance), m.findings, m.nominal
+def finding_limits_from(
+    promise: PromiseTable,
+    guidance: str,
+    findings: FindingsTable,
+    nominal: Vehicle,
+    actuators: ActuatorsTable,
+    admittance: AdmittanceTable,
+    compliance: ComplianceTable,
+) -> FindingLimits:
+    """The limits of the detectors."""
+    promised, f, by_hand = promise_of(promise, guidance), findings, guidance == "interactive"
     return FindingLimits(
         settled=promised.settling_time,
         distance=promised.distance * promised.distance,
         sinking=promised.sinking,
         heading=promised.heading,
         upright=cos(promised.tilt),
-        mass=vehicle.mass,
-        thrust=vehicle.max_thrust * vehicle.max_thrust if m.actuators.model == "rotors" else math.inf,
+        mass=nominal.mass,
+        thrust=nominal.max_thrust * nominal.max_thrust if actuators.model == "rotors" else math.inf,
         rate=f.oscillation_rate * f.oscillation_rate,
-        push=_push_limits(m.admittance, f, m.compliance.max_speed, m.by_hand is not None),
+        push=_push_limits(admittance, f, compliance.max_speed, by_hand),
         unpushed=f.unpushed_distance,
         oscillation=OscillationLimits(
             levels=Swings(f.oscillation_rate, f.oscillation_rate, f.oscillation_rate, f.oscillation_speed),
@@ -66,7 +79,7 @@ def finding_limits_from(m: Mission) -> FindingLimits:
             longest=0.5 / f.slowest_oscillation,
             halves=2.0 * f.oscillation_periods,
         ),
-        shake=(f.structure_thrust * vehicle.weight / vehicle.rotor_count) ** 2,
+        shake=(f.structure_thrust * nominal.weight / nominal.rotor_count) ** 2,
     )
 
 
@@ -80,15 +93,15 @@ def start_detectors(actuators: ActuatorsTable, thrusts: PerRotor, *, elastic: bo
 def _push_limits(
     a: AdmittanceTable, f: FindingsTable, max_speed: tuple[float, float, float], by_hand: bool
 ) -> PushLimits:
-    least = maximum(minimum(minimum(*a.threshold[:2]), a.threshold[2]) * LEAST, LEAST_FORCE)
+    least = maximum(minimum(minimum(*a.threshold[:2]), a.threshold[2]) * LEAST_SHARE, LEAST_FORCE)
     times = [_over(m, c) for m, c in zip(a.mass, a.damping, strict=True)]
     return PushLimits(
-        threshold=Vec3(*a.threshold) * HEARD if by_hand else Absent(),
+        threshold=Vec3(*a.threshold) * HEARD_FACTOR if by_hand else Absent(),
         least=least * least,
         inverse_damping=Vec3(
             *[where(k > 0.0, 0.0, _over(1.0, c)) for k, c in zip(a.stiffness, a.damping, strict=True)]
         ),
-        speed=Vec3(*max_speed) if by_hand else Vec3(UNLIMITED, UNLIMITED, UNLIMITED),
+        speed=Vec3(*max_speed) if by_hand else Vec3(UNLIMITED_SPEED, UNLIMITED_SPEED, UNLIMITED_SPEED),
         time=f.push_time + maximum(maximum(times[0], times[1]), times[2]),
         response=f.push_response,
     )

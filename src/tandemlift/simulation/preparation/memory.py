@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.compiler.machine_code.code import Code
-from tandemlift.compiler.tracer.text import LARGEST, SMALLEST
+from tandemlift.compiler.tracer.text import LARGEST_FLOAT, SMALLEST_FLOAT
 from tandemlift.core.types import flat
 from tandemlift.engines.registry import MachineBody
 from tandemlift.parts.contact.wall_geometry import Wall
@@ -52,7 +52,7 @@ def aligned(size: int, kind: Any = np.float64) -> NDArray[Any]:
 def in_floats(numbers: Any) -> NDArray[np.float32]:
     """Numbers as floats; one too small or too large for a normal float becomes the smallest or the largest."""
     exact = np.asarray(numbers, dtype=np.float64)
-    near = np.copysign(np.clip(np.abs(exact), SMALLEST, LARGEST), exact)
+    near = np.copysign(np.clip(np.abs(exact), SMALLEST_FLOAT, LARGEST_FLOAT), exact)
     return np.where((exact == 0.0) | ~np.isfinite(exact), exact, near).astype(np.float32)
 
 

@@ -12,6 +12,7 @@ from own_flight import INDEX, OwnFlight, check_flies_again
 from repository import ROOT
 
 import tandemlift as tl
+from tandemlift.analysis.studies.corridor_score import score_of
 from tandemlift.apps.cli.main import cli
 from tandemlift.apps.live import page_modules, pages
 from tandemlift.apps.live.page_files import page_files
@@ -19,7 +20,6 @@ from tandemlift.apps.live.page_manifest import page_manifest
 from tandemlift.apps.live.page_modules import page_mission
 from tandemlift.apps.live.session.challenge import write_score
 from tandemlift.core.files import DATA
-from tandemlift.flight.corridor_score import score_of
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation.traced_assembly import trace_assembly
 

@@ -11,11 +11,11 @@ import pytest
 from click.testing import CliRunner
 
 import tandemlift as tl
+from tandemlift.analysis.studies.corridor_score import count_touches, log_dimensionless_jerk, score_of
 from tandemlift.apps.cli.main import cli
 from tandemlift.apps.live.session.challenge import write_score
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.core.vector import Vec3
-from tandemlift.flight.corridor_score import count_touches, log_dimensionless_jerk, score_of
 from tandemlift.parts.person.virtual_hand import HAND_RELEASED
 from tandemlift.simulation.recorded_flight import RecordedFlight
 

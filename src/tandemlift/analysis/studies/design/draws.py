@@ -8,7 +8,7 @@ from tandemlift.analysis.studies.design.distributions import DISTRIBUTIONS, Dist
 from tandemlift.analysis.studies.design.keys import by_key, key_at, leaves_of, validated
 from tandemlift.core.errors import InputError, shown, suggestion
 from tandemlift.core.types import Array
-from tandemlift.missions.changes import MISSING, Place, Tables, place_of, value_at
+from tandemlift.missions import MISSING, Place, Tables, place_of, value_at
 
 SCALED = (
     *("stiffness", "damping", "lag", "gain", "speed"),

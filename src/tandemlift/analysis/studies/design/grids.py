@@ -10,7 +10,7 @@ from pydantic import Field, model_validator
 from tandemlift.analysis.studies.design.keys import by_key, key_at, leaves_of, validated
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.keys import Table, key, must
-from tandemlift.missions.changes import Place, Tables
+from tandemlift.missions import Place, Tables
 
 MOST_VALUES = 1_000_000  # of one key
 

@@ -9,8 +9,7 @@ from pydantic import ValidationError
 
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.keys import Table
-from tandemlift.missions.changes import Place, Tables
-from tandemlift.missions.refusals import problems_in
+from tandemlift.missions import Place, Tables, problems_in
 
 T = TypeVar("T", bound=Table)
 

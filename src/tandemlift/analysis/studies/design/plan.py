@@ -24,9 +24,7 @@ from tandemlift.analysis.studies.design.sampling import point_count, points
 from tandemlift.analysis.studies.design.settings import MAX_ROWS, CaseTable, StudySettings, default_rows_per_chunk
 from tandemlift.analysis.studies.design.variants import Variant
 from tandemlift.core.errors import FlightWarning, InputError
-from tandemlift.missions import IdleKey, Mission, idle_keys, sentences, tables_of
-from tandemlift.missions.changes import Tables, places_in
-from tandemlift.missions.loading import MissionTemplate
+from tandemlift.missions import IdleKey, Mission, MissionTemplate, Tables, idle_keys, places_in, sentences, tables_of
 
 SEED = "mission.seed"
 TRIED = 8  # rows of each variant that are formed before anything flies

@@ -14,9 +14,7 @@ from tandemlift.analysis.studies.design.settings import StudySettings
 from tandemlift.analysis.studies.design.variants import variants_of
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import DATA, toml_tables
-from tandemlift.missions.changes import changed_tables
-from tandemlift.missions.loading import MAX_FILE
-from tandemlift.missions.refusals import problems_in
+from tandemlift.missions import MAX_FILE, changed_tables, problems_in
 
 
 def template() -> str:

@@ -7,19 +7,15 @@ of a user's controller and the bytes of a recording.
 from __future__ import annotations
 
 import base64
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from tandemlift.analysis.studies.design.settings import StudySettings
 from tandemlift.core.errors import InputError, unknown, without_flight_warnings
-from tandemlift.core.plugs import KINDS, PLUGS, STUDY, Plugin, PluginText, has, listed, plugin_of, run_text
+from tandemlift.core.plugs import Plugin, PluginText, has, listed, load_sent, plugins_in
 from tandemlift.engines.registry import engine_named
-from tandemlift.missions import check
-from tandemlift.missions.changes import Tables, merge, value_at
-from tandemlift.missions.checking import Layer
-from tandemlift.missions.loading import MissionTemplate, placed, read_tables
+from tandemlift.missions import Layer, MissionTemplate, Tables, check, merge, placed, read_tables, value_at
 from tandemlift.missions.recording import hold_recording
 from tandemlift.parts.controllers import CONTROLLERS, Controller, controller, load_controller
 
@@ -62,10 +58,7 @@ class Variant(NamedTuple):
     def _tables(self) -> Tables:
         """The tables on this machine."""
         for plugin in self.plugins:
-            if plugin.name.endswith(".py"):
-                run_text(plugin.text, Path(STUDY, plugin.digest[:16], Path(plugin.name).name))
-            else:
-                listed(plugin._asdict())
+            load_sent(plugin)
         if self.recording:
             name, coded = self.recording
             return merge(self.tables, {"person": {"recording": hold_recording(name, base64.b64decode(coded))}})
@@ -86,8 +79,7 @@ def variants_of(settings: StudySettings, folder: Path) -> list[Variant]:
     brought = [listed(placed(one, folder)) for one in study.plugins]
     for engine in study.engines:
         engine_named(engine)
-    own = [(kind, name) for kind in KINDS for name in sorted(PLUGS[kind]) if json.dumps(name) in said]
-    brought += [one for kind, name in own if (one := plugin_of(kind, name))]
+    brought += plugins_in(said)
     return [
         variant._replace(engine=engine)
         for mission in study.missions

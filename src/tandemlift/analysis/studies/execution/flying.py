@@ -12,10 +12,9 @@ from tandemlift.analysis.studies.execution.columns import Columns, Result, colum
 from tandemlift.core.errors import InputError
 from tandemlift.core.phases import INTERRUPTED
 from tandemlift.core.types import Progress
-from tandemlift.missions import Mission
-from tandemlift.missions.loading import MissionTemplate
+from tandemlift.engines.registry import EngineLost, engine_named
+from tandemlift.missions import Mission, MissionTemplate
 from tandemlift.simulation.fly import fly, fly_many, refusal_of
-from tandemlift.simulation.stepping import EngineLost, engine_named
 
 Keep = Literal["flights", "metrics"]
 
@@ -93,7 +92,7 @@ def _one_by_one(
         except Exception as error:
             if not refusals:
                 raise
-            results.append(error if isinstance(mission, InputError) else refusal_of(error, mission))
+            results.append(error if isinstance(mission, InputError) else refusal_of(error))
         if progress:
             progress(len(results), len(missions))
     return results

@@ -20,7 +20,7 @@ from typing import Any, TypeAlias
 from tandemlift.analysis.studies.execution.chunk import sources_digest
 from tandemlift.analysis.studies.execution.columns import Columns
 from tandemlift.core.errors import InputError
-from tandemlift.simulation.caller_values import count_of
+from tandemlift.simulation.simulation import count_of
 
 Task: TypeAlias = Callable[[], Columns]
 """A function that flies a chunk; it can be pickled."""

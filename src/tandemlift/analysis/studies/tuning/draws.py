@@ -19,8 +19,7 @@ from tandemlift.analysis.studies.design.keys import changes_in, overlap
 from tandemlift.analysis.studies.design.plan import StudyPlan
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.core.errors import InputError
-from tandemlift.missions import Mission
-from tandemlift.missions.loading import MissionTemplate
+from tandemlift.missions import Mission, MissionTemplate
 
 
 class MissionSource:

@@ -15,8 +15,7 @@ from tandemlift.analysis.studies.tuning.holdout import Evidence, as_table
 from tandemlift.analysis.studies.tuning.task import Task, Values
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import versions, write_file
-from tandemlift.missions import Mission, built_in, format_toml, tables_of
-from tandemlift.missions.changes import MISSING, Place, Tables, value_at
+from tandemlift.missions import MISSING, Mission, Place, Tables, built_in, format_toml, tables_of, value_at
 
 MISSION_FILE, EVIDENCE_FILE = "tuned.toml", "evidence.json"
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+from tandemlift.analysis.studies.corridor_score import LEFT, SCORED, corridor_run, score_of
 from tandemlift.apps.live.session.frames import channel_columns
 from tandemlift.apps.live.session.server_messages import StatusScore
 from tandemlift.core.errors import InputError
 from tandemlift.core.files import write_file
-from tandemlift.flight.corridor_score import LEFT, SCORED, corridor_run, score_of
 from tandemlift.flight.record import Flight
 from tandemlift.simulation.recorded_flight import RecordedFlight
 

@@ -16,7 +16,7 @@ from pydantic_core import from_json
 
 from tandemlift.core.errors import InputError, shown, suggestion
 from tandemlift.core.keys import must
-from tandemlift.missions.refusals import problems_in
+from tandemlift.missions import problems_in
 
 SILENT = 2.0  # s without a message, after which a page that holds the beam counts as hung
 MAX_WORD = 100  # characters of a key or of a word

@@ -15,8 +15,7 @@ from tandemlift.apps.live.session import server_messages as server
 from tandemlift.apps.live.session.interactive_mission import NEVER
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.plugs import PLUGS
-from tandemlift.missions import Mission, built_in, tables_of
-from tandemlift.missions.changes import MISSING, Tables, place_of, value_at
+from tandemlift.missions import MISSING, Mission, Tables, built_in, place_of, tables_of, value_at
 from tandemlift.missions.key_descriptions import controller_names, own_numbers
 from tandemlift.simulation.recorded_flight import RecordedFlight
 

@@ -9,13 +9,13 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from tandemlift.analysis.studies.corridor_score import CorridorScore, score_of
 from tandemlift.apps.live.session.challenge import SCORE_FILE
 from tandemlift.apps.live.session.interactive_mission import interactive_mission
 from tandemlift.apps.live.session.parameters import dotted_values
 from tandemlift.core.errors import InputError, shown, without_flight_warnings
 from tandemlift.core.files import toml_tables
 from tandemlift.core.types import Progress
-from tandemlift.flight.corridor_score import CorridorScore, score_of
 from tandemlift.missions import Mission, check_double, load_mission, tables_of
 from tandemlift.missions.recording import HAND_FILE, MAX_UNPACKED, MISSION_FILE, read_recording
 from tandemlift.simulation.fly import fly

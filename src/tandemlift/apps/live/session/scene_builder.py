@@ -11,14 +11,13 @@ from numpy.typing import ArrayLike
 
 from tandemlift.apps.live.session import frames
 from tandemlift.apps.live.session import server_messages as server
-from tandemlift.core.faults import ALARM_TEXTS
 from tandemlift.core.files import __version__
 from tandemlift.core.phases import PHASE_NAMES
+from tandemlift.core.refusals import ALARM_TEXTS
 from tandemlift.core.types import Array
-from tandemlift.core.vector import Absent
 from tandemlift.engines.models.visuals import BEAM_RADIUS, SHAPELESS, VisualShape, vehicle_shapes
-from tandemlift.parts.mechanics.vehicle import Vehicle
-from tandemlift.parts.mechanics.vehicle_table import Quadrotor
+from tandemlift.parts.contact.surroundings import floor_height_of
+from tandemlift.parts.mechanics.vehicle import Quadrotor, Vehicle
 
 if TYPE_CHECKING:
     from tandemlift.missions import Mission
@@ -33,12 +32,11 @@ PAST, PAST_RATE = 20, 20  # s that a page's plots show; samples that they keep o
 
 def scene_of(mission: Mission, engine: str) -> server.FlightScene:
     """The scene of a mission in an engine, without the parameters that may be changed in flight."""
-    from tandemlift.engines.models.scene import floor_from
     from tandemlift.missions import tables_of
 
     vehicle = Vehicle.from_settings(mission.vehicle)
-    floor = floor_from(mission, vehicle)
-    height = _lowest(mission.initial.position[2], vehicle) if isinstance(floor, Absent) else float(floor.height)
+    floor = floor_height_of(vehicle, tables_of(mission))
+    height = _lowest(mission.initial.position[2], vehicle) if floor is None else floor
     walls = [w.model_dump(mode="json") for w in mission.all_walls]
     scene, hover = scene_of_tables(tables_of(mission), walls, vehicle, engine, height), mission.hover
     if hover.actuators.model == "rotors":

@@ -8,10 +8,9 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from tandemlift.apps.live.session import server_messages as server
-from tandemlift.core.faults import ALARM_TEXTS
 from tandemlift.core.findings import Finding
 from tandemlift.core.phases import PHASE_NAMES
-from tandemlift.core.refusals import Refusals, refusals_for
+from tandemlift.core.refusals import ALARM_TEXTS, Refusals, refusals_for
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Ending
 

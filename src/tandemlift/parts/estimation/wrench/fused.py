@@ -49,8 +49,8 @@ from tandemlift.parts.estimation.wrench.observation import (
 from tandemlift.parts.mechanics.rigid_body import UP, Inertia, apply_inertia
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 
-BANDWIDTH, SLOW = 10.0, 0.7  # rad/s, of e, and of the wrench that F_o is compared with
-SHOWN = 0.5  # of e, which F_o must have changed by; of the tolerance, which e is above where it is no drift
+BANDWIDTH, REFERENCE_BANDWIDTH = 10.0, 0.7  # rad/s, of e, and of the wrench that F_o is compared with
+SHOWN_SHARE = 0.5  # of e, which F_o must have changed by; of the tolerance, which e is above where it is no drift
 SHOWN_TIME = 0.3  # s, in which z follows e
 DRIFT_TIME, RELEARN_TIME = 5.0, 2.0  # s, in which j does: of joints that are right, and wrong
 DWELL = 0.1  # s, for which e must be unexplained
@@ -127,7 +127,7 @@ class FusedState(NamedTuple):
 @elementwise
 def is_shown(e: Number, change: Number, tolerance: Number) -> Number:
     """1 where F_o has changed by e, or by a part of it, and e is no drift, else 0."""
-    return where(absolute(e) > SHOWN * tolerance, where(change * e > SHOWN * e * e, 1.0, 0.0), 0.0)
+    return where(absolute(e) > SHOWN_SHARE * tolerance, where(change * e > SHOWN_SHARE * e * e, 1.0, 0.0), 0.0)
 
 
 @law
@@ -254,7 +254,7 @@ def fused_filter(
         tolerance=one * tolerances[0],
         moment_tolerance=one * tolerances[1],
         quick=low_pass(BANDWIDTH, interval),
-        slow=low_pass(SLOW, interval),
+        slow=low_pass(REFERENCE_BANDWIDTH, interval),
     )
     still = Monitor(ZERO, ZERO, none, none, none)
     return k, FusedState(KalmanState(ZERO, ZERO, ZERO, 0.0), still, still, 0.0, 0.0)

@@ -12,7 +12,7 @@ from tandemlift.core.plugs import PLUGS
 
 BY_BANDWIDTH = ("momentum", "hybrid", "disturbance-observer")
 BY_MOTION = ("extended-kalman", "unscented")
-FASTEST = 0.1  # rad: bandwidth times the time between samples, at which the model of the thrusts still follows
+LARGEST_PHASE = 0.1  # rad: bandwidth times the time between samples, at which the model of the thrusts still follows
 
 
 class MotionNoise(NamedTuple):
@@ -87,7 +87,7 @@ def bandwidth_checks(
     """
     if PLUGS["observer"].own(wrench):
         return
-    fastest, often = FASTEST / interval, f"with samples every {interval:g} s (sensors.interval)"
+    fastest, often = LARGEST_PHASE / interval, f"with samples every {interval:g} s (sensors.interval)"
     for name in ("force", "moment") if wrench in BY_BANDWIDTH else ():
         bandwidth = getattr(table, f"{name}_bandwidth")
         if max(bandwidth) > fastest:
@@ -96,7 +96,7 @@ def bandwidth_checks(
     largest, of = fastest * accelerometer * math.sqrt(interval), "sensors.accelerometer.noise"
     if wrench in BY_MOTION:
         fastest, often = (
-            FASTEST / motion.interval,
+            LARGEST_PHASE / motion.interval,
             f"with samples every {motion.interval:g} s (sensors.motion.interval)",
         )
         sizes, of = (motion.velocity * fastest**2, motion.position * fastest**3), "noise of sensors.motion"

@@ -14,7 +14,7 @@ from tandemlift.analysis.studies.design.settings import REFUSED
 from tandemlift.analysis.studies.execution.statistics import Share, finite, share
 from tandemlift.analysis.studies.study_rows import WHO, RowGroup, StudyRows
 from tandemlift.analysis.studies.worst import WorstRow, reasons, worst_rows
-from tandemlift.core.file_set import write_files
+from tandemlift.core.files import write_files
 from tandemlift.core.phases import OUTCOMES
 from tandemlift.pictures.report.metric_tables import NUMBER, latex_number, latex_table, latex_text
 from tandemlift.pictures.report.page import Cell, number, strong, with_keys

@@ -9,9 +9,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, get_args
 
+from tandemlift.analysis.differentiable.flight_step import FlightStep
+from tandemlift.analysis.differentiable.iterated import ARGUMENTS, INPUTS, WORDS, Kind
 from tandemlift.compiler.machine_code import machine
-from tandemlift.compiler.machine_code.flight_step import FlightStep
-from tandemlift.compiler.machine_code.iterated import ARGUMENTS, INPUTS, WORDS, Kind
 from tandemlift.compiler.tracer import Function, Graph, Module
 from tandemlift.core.errors import InputError, extra, install_command
 

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from tandemlift.analysis.differentiable.iterated import ARGUMENTS, OF_STEPS, IteratedStep, Kind
 from tandemlift.compiler.machine_code import machine, store
-from tandemlift.compiler.machine_code.iterated import ARGUMENTS, OF_STEPS, IteratedStep, Kind
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 
@@ -95,7 +95,7 @@ class CompiledStep:
         return own, of_parameters, of_actions
 
     def function(self, kind: Kind, by_parameters: bool) -> tuple[str, Any]:
-        """The key of a function's machine code, and the function; see `compiler.machine_code.iterated`."""
+        """The key of a function's machine code, and the function; see `analysis.differentiable.iterated`."""
         by_parameters = by_parameters or kind == "advance"  # which has no derivatives
         if (kind, by_parameters) not in self._functions:
             text = self.code.written(kind, by_parameters)
@@ -141,11 +141,11 @@ class CompiledStep:
 
 def _machine_code(text: str, key: str) -> bytes:
     """The machine code of a module, from disk or compiled."""
-    entry = store.read(f"{key}-best")
-    if entry is None:
-        entry = store.StoredCode({}, machine.compiled(machine.in_short_blocks(text), machine.BEST_OF_VECTORS))
-        store.write(f"{key}-best", entry)
-    return entry.code
+
+    def made() -> store.StoredCode:
+        return store.StoredCode({}, machine.optimised(text))
+
+    return store.kept(f"{key}-best", made).code
 
 
 def _checked(given: Any, of: str, steps: int, size: int) -> Array:

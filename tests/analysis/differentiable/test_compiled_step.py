@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import tandemlift as tl
-from tandemlift.analysis.linearization.differentiable_step import ClosedStep
+from tandemlift.analysis.differentiable.compiled_step import CompiledStep
+from tandemlift.analysis.differentiable.differentiable_step import ClosedStep
 from tandemlift.analysis.linearization.operating_point import flown_to
-from tandemlift.compiler.machine_code.compiled_step import CompiledStep
 from tandemlift.core.errors import InputError
 from tandemlift.simulation.plan import FlightPlan
 

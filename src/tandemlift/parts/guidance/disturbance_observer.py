@@ -204,12 +204,16 @@ def unmodelled(k: DisturbanceObserver, m: ObserverState) -> DisturbanceEstimate:
     )
 
 
-UNBOUNDED = 1e18  # a slope that nothing reaches
+UNBOUNDED_SLOPE = 1e18  # a slope that nothing reaches
 
 
 def _follower(bandwidth: Iterable[float], slope: Iterable[float], linear: bool, size: np.ndarray) -> DisturbanceFilter:
     """A filter with a slope in N/s or N·m/s, for axes of a mass [kg] or inertia [kg·m²]."""
-    most = [UNBOUNDED] * 3 if linear else [minimum(s / m, UNBOUNDED) for s, m in zip(slope, size.tolist(), strict=True)]
+    most = (
+        [UNBOUNDED_SLOPE] * 3
+        if linear
+        else [minimum(s / m, UNBOUNDED_SLOPE) for s, m in zip(slope, size.tolist(), strict=True)]
+    )
     return DisturbanceFilter(vec3(bandwidth), vec3(most))
 
 

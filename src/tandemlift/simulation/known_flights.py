@@ -31,7 +31,7 @@ from tandemlift.core.files import versions
 from tandemlift.core.findings import finding_from
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Progress, flat, leaves
-from tandemlift.flight.reading_stamps import reading_stamps
+from tandemlift.flight.channels import reading_stamps
 from tandemlift.flight.record import Flight
 
 if TYPE_CHECKING:
@@ -39,7 +39,8 @@ if TYPE_CHECKING:
     from tandemlift.simulation.plan import FlightPlan
     from tandemlift.simulation.results import RawResult
 
-WITH_LAWS = re.compile(r"tandemlift\.(parts|missions|engines|simulation|compiler\.tracer)\b")
+# this module is in a room of laws, and has none: it would hide every flight
+WITH_LAWS = re.compile(r"tandemlift\.((parts|missions|engines|compiler\.tracer)\b|simulation\.(?!known_flights))")
 _CODES = dict[str, Code]()  # that fly in this process
 Numbers = NDArray[np.float64]
 STRETCH, FIRST_STRETCH = 0.1, 5_000  # as in `simulation.fly`: s of a stretch of flight, steps of the first one

@@ -17,7 +17,7 @@ import numpy as np
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.types import Array, flat, unflat
 from tandemlift.engines.driven_vehicle import VehicleNumbers, vehicle_numbers
-from tandemlift.parts.mechanics.vehicle_table import VehicleTable
+from tandemlift.missions import VehicleTable
 
 SPREAD = 0.3  # standard deviation of the prior of a positive number, relative
 THIN = 1e-3  # least second moment over the mean of the three

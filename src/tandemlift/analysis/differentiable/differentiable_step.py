@@ -7,6 +7,9 @@ from typing import Any, cast
 
 import numpy as np
 
+from tandemlift.analysis.differentiable.iterated import IteratedStep, StepForm
+from tandemlift.analysis.differentiable.jax_step import JaxStep
+from tandemlift.analysis.differentiable.torch_step import TorchStep
 from tandemlift.analysis.linearization.kinks import Kink, kinks_near
 from tandemlift.analysis.linearization.linearize import linearization_plan
 from tandemlift.analysis.linearization.model_variables import outputs_from
@@ -14,21 +17,16 @@ from tandemlift.analysis.linearization.operating_point import OperatingPoint, fl
 from tandemlift.analysis.linearization.period import delayed_numbers, differentiate, values_under_way
 from tandemlift.analysis.linearization.step_derivative import REFINED
 from tandemlift.analysis.linearization.step_graph import StepGraph, leaf_names
-from tandemlift.compiler.machine_code.differentiated import inlined
-from tandemlift.compiler.machine_code.iterated import IteratedStep, StepForm
-from tandemlift.compiler.machine_code.jax_step import JaxStep
-from tandemlift.compiler.machine_code.torch_step import TorchStep
-from tandemlift.compiler.tracer import Function, Place, Symbol, elementary
+from tandemlift.compiler.machine_code.derivatives import inlined
+from tandemlift.compiler.tracer import Function, Place, Symbol, to_integer
 from tandemlift.core.algebra import where
 from tandemlift.core.errors import InputError, shown, unknown
 from tandemlift.core.types import Array, leaves, rebuilt
 from tandemlift.missions import MissionLike, mission_of
-from tandemlift.parts.mechanics.push import push_at
-from tandemlift.parts.mechanics.wind import gust_velocity
-from tandemlift.simulation.caller_values import count_of, held_inputs
+from tandemlift.simulation.graphs import gust_velocity, push_at, write_limits, write_solver
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import GAUSSIAN, GUST, leaf_offset
-from tandemlift.simulation.preparation.loops import write_limits, write_solver
+from tandemlift.simulation.simulation import count_of, held_inputs
 
 ACTIONS = ("push", "thrusts", "velocity")
 MOTION = {"position": 3, "velocity": 3, "attitude": 4, "rates": 3}
@@ -160,7 +158,7 @@ class ClosedStep:
         by = {
             g.input(kind, i).node: g.number(value) for kind, values in formed.items() for i, value in enumerate(values)
         }
-        whole: Any = elementary.to_integer(cast(float, number))
+        whole: Any = to_integer(cast(float, number))
         return by | {g.input("number", type="i").node: whole.node}
 
     def _solved(self) -> dict[int, int]:

@@ -10,13 +10,13 @@ Addresses are those of the machine; the loop takes them from 64-bit words of its
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 from tandemlift.compiler.machine_code.functions import results_of
 from tandemlift.compiler.tracer import Function, Graph, Module, Place, double, rounded_twice
 from tandemlift.core.types import leaves
-from tandemlift.simulation.preparation import LoopCode
+from tandemlift.simulation.preparation.compiled_flight import LoopCode
 from tandemlift.simulation.preparation.loops import LoopWriter
 
 
@@ -49,6 +49,15 @@ def write_values_function(module: Module, wanted: ValuesFunction) -> int:
     f.put("%y", 0, found)
     f.end("i64 0")
     return len(found)
+
+
+def write_flight_module(
+    loop_code: LoopCode, draw_lanes: int, largest: int, functions: Sequence[ValuesFunction]
+) -> tuple[LoopWriter, dict[str, tuple[int, int]]]:
+    """The loop, the ramp and further functions in one module; of these, by name, numbers of arguments and results."""
+    loop = write_flight_loop(loop_code, draw_lanes, largest)
+    write_ramp(loop.module)
+    return loop, {f.name: (f.width, write_values_function(loop.module, f)) for f in functions}
 
 
 RAMP = (

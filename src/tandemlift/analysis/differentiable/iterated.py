@@ -15,9 +15,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple, cast
 
-from tandemlift.compiler.machine_code.differentiated import cotangents, tangents
-from tandemlift.compiler.tracer import Function, Graph, Module, Place, Symbol
-from tandemlift.compiler.tracer.llvm import Read
+from tandemlift.compiler.machine_code.derivatives import cotangents, tangents
+from tandemlift.compiler.tracer import Function, Graph, Module, Place, Read, Symbol
 
 Kind = Literal["advance", "tangent", "cotangent"]
 ARGUMENTS: dict[

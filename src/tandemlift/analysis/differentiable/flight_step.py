@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from tandemlift.compiler.machine_code.compiled_step import CompiledStep
-from tandemlift.compiler.machine_code.iterated import IteratedStep
+from tandemlift.analysis.differentiable.compiled_step import CompiledStep
+from tandemlift.analysis.differentiable.iterated import IteratedStep
 from tandemlift.core.errors import InputError, shown
 from tandemlift.core.types import Array
 

@@ -20,7 +20,7 @@ import numpy as np
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight
-from tandemlift.parts.contact.corridor import CorridorTable
+from tandemlift.parts.contact.surroundings import CorridorTable
 
 TOUCH, EFFORT, JERK = 5.0, 0.2, 1.0  # s a touch, s per N s, s per unit
 PRESSED = 0.5  # N, of a horizontal contact force: a touch

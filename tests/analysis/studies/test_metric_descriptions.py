@@ -6,7 +6,7 @@ import pytest
 from for_all import for_all
 
 import tandemlift as tl
-from tandemlift.flight.metric_descriptions import ANGLES, METRIC_GROUPS, METRICS, metric_of
+from tandemlift.analysis.studies.metric_descriptions import ANGLES, METRIC_GROUPS, METRICS, metric_of
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.results import metric_names
 

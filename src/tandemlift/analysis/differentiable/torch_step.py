@@ -12,9 +12,9 @@ import inspect
 from collections.abc import Callable, Mapping
 from typing import Any, NoReturn, cast
 
-from tandemlift.compiler.machine_code.compiled_step import CompiledStep
-from tandemlift.compiler.machine_code.flight_step import FlightStep
-from tandemlift.compiler.machine_code.iterated import INPUTS, Kind
+from tandemlift.analysis.differentiable.compiled_step import CompiledStep
+from tandemlift.analysis.differentiable.flight_step import FlightStep
+from tandemlift.analysis.differentiable.iterated import INPUTS, Kind
 from tandemlift.core.errors import InputError, extra
 
 STEPS: list[CompiledStep] = []

@@ -13,11 +13,11 @@ from edited_package import EditedPackage
 from patience import completed
 
 import tandemlift as tl
-from tandemlift.codegen import known_flights
-from tandemlift.codegen.known_flights import WITH_LAWS, KnownFile
 from tandemlift.compiler.machine_code import store
 from tandemlift.missions import built_in
+from tandemlift.simulation import known_flights
 from tandemlift.simulation.fly import fly_plan
+from tandemlift.simulation.known_flights import WITH_LAWS, KnownFile
 from tandemlift.simulation.plan import FlightPlan
 
 PACKAGE = Path(tl.__file__).parent
@@ -109,7 +109,7 @@ def test_every_module_with_a_law_a_choice_a_table_or_a_registry_counts_as_one_th
 
 @pytest.mark.parametrize("before", ["import tandemlift.parts.controllers", "tl.load_mission('hover')", "tl.Pilot"])
 def test_a_process_that_has_loaded_laws_neither_finds_nor_keeps_a_flight(before):
-    code = f"import tandemlift as tl; from tandemlift.codegen.known_flights import KnownFile\n{before}\n"
+    code = f"import tandemlift as tl; from tandemlift.simulation.known_flights import KnownFile\n{before}\n"
     done = completed([sys.executable, "-c", code + "print([KnownFile('hover')._key])"], capture_output=True, text=True)
     assert done.stdout == "['']\n", done.stderr
 
