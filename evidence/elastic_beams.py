@@ -1,7 +1,6 @@
 """Fly `iris` on beams that bend, and print what each mode does to its thrusts: docs/how-to/beam-that-bends.md.
 
-Each beam is 2 m long and has the mass of its material. The notched flights have one notch on each mode that
-`tandemlift check` finds driven, at the frequencies of that beam.
+Each beam is 2 m long and has the mass of its material.
 """
 
 from __future__ import annotations
@@ -15,7 +14,6 @@ import tandemlift as tl
 from tandemlift.core.errors import FlightWarning
 from tandemlift.flight import Flight
 from tandemlift.missions import Mission
-from tandemlift.parts.mechanics.structure import kept_modes, mode_in_words
 
 BEAMS: dict[str, dict[str, Any]] = {
     "rigid, 0.5 kg": {},
@@ -31,8 +29,8 @@ CALM = 12.0  # s, from which it hovers
 
 def mission_of(beam: dict[str, Any]) -> Mission:
     """`iris`, hovering, with a beam."""
-    tables = {"length": 2.0} | beam if beam else None
-    return tl.load_mission("iris", {**HOVER, **({"vehicle.payload": tables} if tables else {})})
+    payload = {f"vehicle.payload.{name}": value for name, value in beam.items()}
+    return tl.load_mission("iris", {**HOVER, **({"vehicle.payload.mass": None, **payload} if beam else {})})
 
 
 def row(name: str, mission: Mission) -> str:
@@ -42,8 +40,7 @@ def row(name: str, mission: Mission) -> str:
     swing = float(flight["rotor_thrusts"][hovers].std(axis=0).mean())
     off = 1e3 * float(np.sqrt(np.mean(np.square(flight["position_error"][hovers, 2]))))
     found = ", ".join(dict.fromkeys(f.kind for f in flight.findings)) or "none"
-    modes = [kept_modes(mission.nominal, mission.mission.step)] if mission.is_elastic else []
-    bends = [w for m in modes for i, w in enumerate(m.frequency) if "up and down" in mode_in_words(m, i)]
+    bends = [mode.frequency for mode in mission.structure_modes if "up and down" in mode.shape]
     driven = [r.subject.partition(":")[0] for r in tl.check(mission) if r.check == "structure" and r.verdict == "fails"]
     lowest = f"{bends[0]:.3g}" if bends else "–"
     return f"| {name} | {lowest} | {'; '.join(driven) or '–'} | {swing:.2f} | {off:.3g} | {found} |"
@@ -52,7 +49,9 @@ def row(name: str, mission: Mission) -> str:
 def main() -> None:
     """Print the table."""
     warnings.simplefilter("ignore", FlightWarning)
-    print("| beam | bends up and down, rad/s | `check`: driven | thrust, standard deviation, N | z, RMS, mm | findings |")
+    print(
+        "| beam | bends up and down, rad/s | `check`: driven | thrust, standard deviation, N | z, RMS, mm | findings |"
+    )
     print("|---|---:|---|---:|---:|---|")
     for name, beam in BEAMS.items():
         print(row(name, mission_of(beam)), flush=True)

@@ -42,7 +42,7 @@ from tandemlift.parts.guidance.supervision import SUPERVISION, SupervisionTable
 from tandemlift.parts.guidance.yaw_compliance import HEADING
 from tandemlift.parts.mechanics.push import PushTable
 from tandemlift.parts.mechanics.rigid_body import InitialTable
-from tandemlift.parts.mechanics.structure import STRUCTURE, is_elastic
+from tandemlift.parts.mechanics.structure import STRUCTURE, StructureMode, is_elastic, structure_modes
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import DisturbanceTable, PlantTable, VehicleTable
 from tandemlift.parts.mechanics.wind import WIND, WindTable
@@ -248,7 +248,12 @@ class Mission(Table):
     @property
     def is_elastic(self) -> bool:
         """Whether the beam bends or a mount gives."""
-        return is_elastic(Vehicle.from_settings(self.vehicle))
+        return is_elastic(self.nominal)
+
+    @property
+    def structure_modes(self) -> tuple[StructureMode, ...]:
+        """The modes of the structure that are flown, the slowest first; none of a rigid vehicle."""
+        return structure_modes(self.nominal, self.mission.step)
 
     @property
     def sample_size(self) -> int:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterator
 
@@ -11,7 +10,6 @@ from tandemlift.analysis.linearization.linearize import linearize
 from tandemlift.analysis.linearization.loop_margins import LIFT, NO_KINK, SETTLED, calm_mission
 from tandemlift.core.errors import CheckResult, judged
 from tandemlift.missions import Mission
-from tandemlift.parts.mechanics.structure import kept_modes, mode_in_words
 
 SHAPE = re.compile(r"shape\.(?:coordinates|rates)\.n(\d+)")
 BEFORE_TARE = 1.0 + LIFT + 0.5 * SETTLED  # s: the hover of `calm_mission` before its tare
@@ -42,11 +40,10 @@ def closed_structure(mission: Mission) -> dict[int, Mode]:
 
 def structure_in_loop_checks(mission: Mission) -> Iterator[CheckResult]:
     """Check that no loop of the pilot drives a mode of the structure."""
-    vehicle = mission.nominal
-    modes = kept_modes(vehicle, mission.mission.step)
+    modes = mission.structure_modes
     for i, mode in closed_structure(mission).items():
-        own, words = float(modes.frequency[i]) / (2.0 * math.pi), mode_in_words(modes, i)
-        subject = f"{words}: {own:.3g} Hz alone, {mode.frequency:.3g} Hz in flight"
+        words = modes[i].shape
+        subject = f"{words}: {modes[i].hertz:.3g} Hz alone, {mode.frequency:.3g} Hz in flight"
         text = (
             f"the {words}, at {mode.frequency:.3g} Hz, which grows by a factor of e in {-mode.time_constant:.2g} s "
             "because the pilot drives it: add a notch there ([[allocation.notches]]), stiffen the beam or its mounts, "

@@ -383,15 +383,36 @@ def structure_refusals(vehicle: Vehicle, step: float) -> Iterator[CheckResult]:
         )
 
 
+class StructureMode(NamedTuple):
+    """A mode that is flown: its shape in words, its angular frequency [rad/s], and its damping ratio."""
+
+    shape: str
+    frequency: float
+    damping: float
+
+    @property
+    def hertz(self) -> float:
+        """The frequency [Hz]."""
+        return self.frequency / (2.0 * math.pi)
+
+
+def structure_modes(vehicle: Vehicle, step: float) -> tuple[StructureMode, ...]:
+    """The modes of a vehicle that its flight keeps, in steps of time [s], the slowest first; none of a rigid one."""
+    if not is_elastic(vehicle):
+        return ()
+    modes = kept_modes(vehicle, step)
+    numbers = zip(modes.frequency.tolist(), modes.damping.tolist(), strict=True)
+    return tuple(StructureMode(mode_in_words(modes, i), w, ratio) for i, (w, ratio) in enumerate(numbers))
+
+
 def structure_checks(vehicle: Vehicle, step: float) -> Iterator[CheckResult]:
     """The modes that are flown, and the slope of the hovering vehicle."""
     if not is_elastic(vehicle):
         return
-    modes = kept_modes(vehicle, step)
-    for i, w in enumerate(modes.frequency.tolist()):
-        subject = f"{mode_in_words(modes, i)}, {w / (2.0 * math.pi):.3g} Hz, damping {modes.damping[i]:.2g}"
-        yield judged("mode", w, REACH / step, "rad/s", "", subject=subject, near=0.0)
-    turn = hover_slopes(modes, vehicle)
+    for mode in structure_modes(vehicle, step):
+        subject = f"{mode.shape}, {mode.hertz:.3g} Hz, damping {mode.damping:.2g}"
+        yield judged("mode", mode.frequency, REACH / step, "rad/s", "", subject=subject, near=0.0)
+    turn = hover_slopes(kept_modes(vehicle, step), vehicle)
     text = (
         f"in hover, the quadrotors lean by {turn:.2g} rad, and the model is one of small slopes, up to {STEEP:g} rad: "
         "stiffen the beam"
