@@ -17,9 +17,9 @@ from tandemlift.flight.channels import OTHER, channel_of
 
 DOCUMENTS = sorted(ROOT.glob("*.md"))  # the links of docs/ are checked when the site is built
 PAGES = sorted((ROOT / "docs" / "how-to").glob("*.md"))
-PAGES += [ROOT / "docs" / "reference" / f"{name}.md" for name in ("checks", "flights", "linearize", "studies")]
+PAGES += [ROOT / "docs" / "reference" / f"{name}.md" for name in ("checks", "flights", "linearize", "missions", "studies")]
 # these need other programs or a minute, and have tests of their own
-ELSEWHERE = ("own-pilot-in-ros", "scaling", "certify", "excite-a-vehicle")
+ELSEWHERE = ("ros", "scaling", "certify", "excite-a-vehicle")
 CODE = [page for page in PAGES if page.stem not in ELSEWHERE and "\n```python\n" in page.read_text("utf-8")]
 # reference/controllers.md has tests of its own; the site's build runs the tutorials
 QUIET = pytest.mark.filterwarnings("error::tandemlift.core.errors.FlightWarning")
