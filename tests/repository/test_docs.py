@@ -17,7 +17,9 @@ from tandemlift.flight.channels import OTHER, channel_of
 
 DOCUMENTS = sorted(ROOT.glob("*.md"))  # the links of docs/ are checked when the site is built
 PAGES = sorted((ROOT / "docs" / "how-to").glob("*.md"))
-PAGES += [ROOT / "docs" / "reference" / f"{name}.md" for name in ("checks", "flights", "linearize", "missions", "studies")]
+PAGES += [
+    ROOT / "docs" / "reference" / f"{name}.md" for name in ("checks", "flights", "linearize", "missions", "studies")
+]
 # these need other programs or a minute, and have tests of their own
 ELSEWHERE = ("ros", "scaling", "certify", "excite-a-vehicle")
 CODE = [page for page in PAGES if page.stem not in ELSEWHERE and "\n```python\n" in page.read_text("utf-8")]

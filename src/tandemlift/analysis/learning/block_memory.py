@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from tandemlift.simulation.preparation import FlightMemory, FlightStart, LeafSpan, LoopCode, TimeGrid
 from tandemlift.simulation.preparation.memory import AT, NEVER, WORDS, Numbers, Words, aligned
 
-WORTH = 2e-4  # s of flight code in a call, from which on threads share it
+THREADED_TIME = 2e-4  # s of flight code in a call, from which on threads share it
 
 
 class BlockOfFlights:
@@ -155,7 +155,7 @@ class BlockOfFlights:
         count, steps = len(self.blocks), stop - int(self.reached.min())
         if not steps:
             return 0
-        parts = max(1, min(self.threads, count, int(self._pace * count * steps / WORTH)))
+        parts = max(1, min(self.threads, count, int(self._pace * count * steps / THREADED_TIME)))
         began, cuts = time.perf_counter(), [count * i // parts for i in range(parts + 1)]
         if parts == 1:
             halted = self._fly_some(stop, 0, count)

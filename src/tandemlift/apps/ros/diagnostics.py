@@ -17,7 +17,7 @@ from tandemlift.simulation.results import describe_event
 from tandemlift.simulation.touches import contact_codes
 
 AGAIN = 1.0  # s, before the same words are repeated
-MOST = 100  # events that wait
+MAX_EVENTS = 100  # events that wait
 Notify = Callable[[str], None]
 
 
@@ -30,9 +30,9 @@ class FlightDiagnostics:
 
     def __init__(self, middleware: Middleware) -> None:
         self._middleware = middleware
-        self._channel = middleware.advertise(DIAGNOSTICS.name, DIAGNOSTICS.kind, depth=MOST)
+        self._channel = middleware.advertise(DIAGNOSTICS.name, DIAGNOSTICS.kind, depth=MAX_EVENTS)
         self._event, self._status = event_maker(middleware.types), status_maker(middleware.types)
-        self._waiting: deque[tuple[int, str]] = deque(maxlen=MOST)
+        self._waiting: deque[tuple[int, str]] = deque(maxlen=MAX_EVENTS)
         self._said: dict[str, float] = {}
         self._now = (-1, 0, 0, 0)  # phase, alarm, failed check, contact
 
@@ -49,7 +49,7 @@ class FlightDiagnostics:
             at, what = self._waiting.popleft()
             self._channel.publish(self._event(at, what))
             self._middleware.log(what)
-        if len(self._said) > MOST:
+        if len(self._said) > MAX_EVENTS:
             self._said.clear()
 
     def follow(self, flight: Flight, stamps: list[int]) -> None:
