@@ -254,9 +254,8 @@ def margins_of(axis: str, w: Array, L: NDArray[np.complexfloating]) -> AxisMargi
     gain, least_gain, least, crossover = math.inf, 0.0, math.nan, math.nan
     for k in np.flatnonzero((size[:-1] >= 0.0) != (size[1:] >= 0.0)):
         part = size[k] / (size[k] - size[k + 1])
-        left = (
-            math.degrees((1.0 - part) * phase[k] + part * phase[k + 1]) + 180.0 + 180.0
-        ) % 360.0 - 180.0  # within ±180
+        left = math.degrees((1.0 - part) * phase[k] + part * phase[k + 1]) + 180.0
+        left = (left + 180.0) % 360.0 - 180.0  # within a half turn
         if math.isnan(least) or abs(left) < abs(least):
             least, crossover = left, math.exp((1.0 - part) * math.log(w[k]) + part * math.log(w[k + 1]))
     turns = (phase + math.pi) / (2.0 * math.pi)
