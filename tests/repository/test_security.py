@@ -64,7 +64,9 @@ def test_the_quadrotors_of_clients_are_at_the_ports_of_the_table():
     assert ROWS["`tandemlift mavlink`"][0].startswith(
         f"{listens}, which sends to {vehicles.PORT}, {vehicles.PORT + 1}, …"
     )
-    assert said(f"at most {vehicles.PACKETS} packets in a control step and answers at most {vehicles.MOST} clients")
+    assert said(
+        f"at most {vehicles.PACKETS} packets in a control step and answers at most {vehicles.MAX_CLIENTS} clients"
+    )
 
 
 def test_limits_of_messages_are_those_that_are_counted():

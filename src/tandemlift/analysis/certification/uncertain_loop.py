@@ -150,14 +150,18 @@ def uncertain_loop(family: Family, box: Mapping[str, Span], *, late: bool = True
         net.add(speed, 4, arrived=answer, **dict.fromkeys(lagging, -lag * slow.half * answer))
         net.add(f"given_{tau}", 4, **{speed: rotors_response(w, family.delay, 0.0)})
     net.add("wrench", 4, command=-1.0, **{f"given_{tau}": family.share(tau) for tau in set(lags)})
-    rotors = {name: int(name[6:]) - 1 for name in box if name.startswith("rotor.")}
-    own = {
-        name: uncertain(name, "gain", 1, {f"given_{lags[i]}": family.spread[None, [i]]}) for name, i in rotors.items()
-    }
-    net.add("own", n, **{key: np.eye(n)[None, :, [rotors[name]]] for name, key in own.items()})
+    own = _own_gains(family, box)
+    net.add("own", n, **{uncertain(name, "gain", 1, given): unit for name, (given, unit) in own.items()})
     order = [key for name in box for key in keys[name]]
     M = net.response([f"y_{key}" for key in order], [f"z_{key}" for key in order])
     return UncertainLoop(M, tuple(DeltaBlock(net.width(keys[name]), real=True) for name in box))
+
+
+def _own_gains(family: Family, box: Mapping[str, Span]) -> dict[str, tuple[dict[str, Array], Array]]:
+    """Of each rotor in a box: its thrust by the signal of its lag, and where it acts among all."""
+    eye, lags = np.eye(len(family.lags)), family.lags.tolist()
+    rotors = {name: int(name[6:]) - 1 for name in box if name.startswith("rotor.")}
+    return {n: ({f"given_{lags[i]}": family.spread[None, [i]]}, eye[None, :, [i]]) for n, i in rotors.items()}
 
 
 class DeviatingLoop:
