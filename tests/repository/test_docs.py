@@ -3,6 +3,8 @@
 import importlib
 import re
 import shlex
+import shutil
+import sys
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -97,6 +99,18 @@ def test_documents_that_the_code_names_are_there_with_their_anchors():
             if not (ROOT / name).exists() or (anchor and anchor not in anchors(ROOT / name)):
                 wrong.append(f"{file.name}: {name}#{anchor}")
     assert wrong == []
+
+
+def test_shell_commands_of_the_site_are_those_of_the_environment_that_builds_it(monkeypatch):
+    """Where it is not active, the first page showed "command not found"."""
+    monkeypatch.setenv("PATH", "/usr/bin")
+    monkeypatch.setattr("sys.path", [*sys.path])
+    conf = ROOT / "docs" / "conf.py"
+    exec(
+        compile(conf.read_text("utf-8"), str(conf), "exec"),
+        {"tags": type("Tags", (set,), {"has": set.__contains__})(), "__file__": str(conf)},
+    )
+    assert Path(shutil.which("tandemlift")).parent == Path(sys.executable).parent
 
 
 def test_changelog_citation_and_ros_package_have_the_version_of_the_package_and_one_date():
