@@ -14,7 +14,7 @@ from tandemlift.parts.contact.standing import standing_on
 from tandemlift.parts.contact.touches import start_touches
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
-STEP, STEPS = 1e-3, 400  # s
+STEP, STEPS = 1e-3, 120  # s
 MISSION = tl.load_mission("iris")
 FLOOR = standing_on(
     MISSION.ground, Vehicle.from_settings(MISSION.vehicle), 1.0, MISSION.mission.step, MISSION.initial
@@ -27,7 +27,7 @@ def drawn_contacts(rng):
     for _ in range(STEPS):
         yield [
             (kind, int(rng.integers(COUNTS[kind])), float(rng.exponential(5.0)), rng.standard_normal(3))
-            for kind in rng.choice(list(COUNTS), int(rng.poisson(0.05)))
+            for kind in rng.choice(list(COUNTS), int(rng.poisson(0.7)))
         ]
 
 
