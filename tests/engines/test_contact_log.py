@@ -66,3 +66,14 @@ def test_a_contact_that_presses_nothing_is_no_touch():
         log.add("floor", "guard", 1, normal, [0.0, 0.0, 0.0])
     log.end_step()
     assert np.array_equal(log.numbers, before)
+
+
+@pytest.mark.parametrize("normals", [(2.0, 5.0), (5.0, 2.0)])
+def test_of_two_contacts_of_a_part_at_once_both_press_and_the_harder_is_the_place(normals):
+    log, places = ContactLog(FLOOR, Absent(), 2, STEP), ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0])
+    for normal, place in zip(normals, places, strict=True):
+        log.add("floor", "beam", 0, normal, place)
+    log.end_step()
+    beam = rebuilt(log.numbers.tolist(), start_touches(FLOOR, Absent(), 8)).floor.beam
+    assert list(beam.place) == places[int(np.argmax(normals))]
+    assert (beam.force, beam.impulse) == (7.0, pytest.approx(7.0 * STEP))
