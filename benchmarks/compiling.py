@@ -239,7 +239,7 @@ def with_quadrotors(count: int) -> dict[str, Any]:
 
     one = tl.load_mission("iris").vehicle.quadrotors[0].model_dump(mode="json", exclude_none=True)
     turns = [2.0 * math.pi * i / count + math.pi / 2.0 for i in range(count)]
-    reach = 1.0 if count > 1 else 0.0
+    reach = max(1.0, 0.8 * count / (2.0 * math.pi)) if count > 1 else 0.0  # m: so that no rotors strike each other
     places = [[reach * math.cos(turn), reach * math.sin(turn), 0.075] for turn in turns]
     return {"vehicle.quadrotors": [{**one, "position": place} for place in places]}
 

@@ -1,5 +1,6 @@
 """The site: `make docs` writes out/site. It is built without a network, and a warning ends the build."""
 
+import os
 import sys
 import zipfile
 from pathlib import Path
@@ -8,6 +9,8 @@ import tandemlift
 
 HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE / "_extensions"), str(HERE.parent / "tools")]
+# a notebook's `!tandemlift` is the one of this environment, also where it is not active; a shell's error ends no build
+os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
 
 project = "tandemlift"
 author = "The tandemlift contributors"

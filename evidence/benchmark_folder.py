@@ -113,7 +113,7 @@ and baselines.csv.
 ## Known limits
 
 - All flights are simulated. Noise and biases of the sensors are typical of their kind, of no product; persons are
-  models. docs/explanation/validation.md of tandemlift says how far engines agree.
+  models. docs/reference/validation.md of tandemlift says how far engines agree.
 - Sensors of observers/ were recorded with `{recorded}` in the loop: another observer moves the vehicle differently.
 - Seeds are public, and so is the truth of `test`: whoever tunes on it fools only themselves.
 - Limits are of {missions} of 500 random missions; {mujoco} of them were flown in MuJoCo.

@@ -10,7 +10,7 @@
 // in itself, as there is no order between topics. The first node whose command is heard while nobody leads becomes the
 // pilot; from then on the world waits. While it waits, its state is told again every 0.1 s, with the same stamp.
 //
-// Topics, below the namespace; frames as in docs/reference/export.md
+// Topics, below the namespace; frames as in docs/reference/flights.md
 //   state            out  sensor_msgs/MultiDOFJointState, latched. All there is, to the last bit, in joints named
 //                           base_link  transform and twist: State, linear velocity in world axes, rates in body axes
 //                           imu        wrench: specific force [N for each kg, body]

@@ -17,8 +17,8 @@ import tandemlift as tl
 from random_hands.drawn import HOVER, START
 from tandemlift.analysis.certification.shakes import (
     FREQUENCIES,
-    MOST,
-    RESTS,
+    MAX_PEAK,
+    REST,
     SECONDS,
     Shake,
     end_of_answers,
@@ -49,7 +49,7 @@ class Compared(NamedTuple):
 
 def mission_to_shake(base: str) -> Mission:
     """A mission that hovers in calm air until its end."""
-    return tl.load_mission(base, {**HOVER, "wind.model": "none", "mission.duration": START + SECONDS + RESTS})
+    return tl.load_mission(base, {**HOVER, "wind.model": "none", "mission.duration": START + SECONDS + REST})
 
 
 def answers(sim: tl.Simulation, hand: Shake, peak: float, seed: int) -> bool:
@@ -80,7 +80,7 @@ def compared(seed: int, draws: int, mujoco: int, bases: tuple[str, ...]) -> Iter
     done = 0
     for base in dict.fromkeys(chosen):
         mission = mission_to_shake(base)
-        places, tried = shaken_hands(mission)[:: len(FREQUENCIES)], MOST * mission.hover.mass / HAND_MASS
+        places, tried = shaken_hands(mission)[:: len(FREQUENCIES)], MAX_PEAK * mission.hover.mass / HAND_MASS
         hands = [
             places[rng.integers(len(places))]._replace(
                 frequency=math.exp(rng.uniform(math.log(LOWEST), math.log(HIGHEST)))

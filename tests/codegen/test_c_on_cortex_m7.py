@@ -1,4 +1,4 @@
-"""The pilot of missions in C on a Cortex-M7 under QEMU: the same bits, and what flight-computer.md says of a sample."""
+"""The pilot of missions in C on a Cortex-M7 under QEMU: the same bits, and what compile.md says of a sample."""
 
 import re
 import subprocess
@@ -91,7 +91,7 @@ def test_a_sample_has_the_bits_of_the_native_pilot_and_costs_what_the_guide_says
     mission = unfused(tl.load_mission(name))
     vectors = closed_loop(mission, 40)
     span = np.ptp([thrusts for *_, thrusts in vectors])
-    guide = (ROOT / "docs" / "how-to" / "flight-computer.md").read_text("utf-8")
+    guide = (ROOT / "docs" / "how-to" / "compile.md").read_text("utf-8")
     version = subprocess.run(["arm-none-eabi-gcc", "-dumpfullversion"], check=True, capture_output=True, text=True)
     assert f"(arm-none-eabi-gcc {version.stdout.strip()})" in guide  # another compiler takes another stack
     for precision in ("double", "single"):

@@ -24,7 +24,7 @@ from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from .conftest import SILENT_OVER_ROS, fly
 
 pytestmark = [pytest.mark.gazebo, pytest.mark.filterwarnings("ignore")]  # rospy is of another age
-DOCS = REPOSITORY / "docs/how-to/own-pilot-in-ros.md"
+DOCS = REPOSITORY / "docs/how-to/ros.md"
 FIND = "import sys, threading; sys.path += sys.argv[1:]; threading.Thread.isAlive = threading.Thread.is_alive\n"
 PILOT = """
 from tandemlift.engines.gazebo_ros import RosWire

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from law_values import flat, rebuilt, record
+from law_values import flat, rebuilt, record, zeros
 from machine_code import answers
 
 from tandemlift.core import low_pass
@@ -15,7 +15,7 @@ from tandemlift.core.vector import Absent, Mat3, Quat, Vec3, each, outer
 from tandemlift.parts.controllers import attitude_reference, sliding_surface
 from tandemlift.parts.estimation import wind_compensation
 from tandemlift.parts.estimation.wrench import delay, extended_kalman, fused, hybrid, kalman, momentum
-from tandemlift.parts.estimation.wrench.observation import ExternalWrench, NominalBody, Observation, observe
+from tandemlift.parts.estimation.wrench.observation import NominalBody, Observation, observe
 from tandemlift.parts.guidance import guidance, policy
 from tandemlift.parts.mechanics import equations_of_motion, parts, rotation
 from tandemlift.parts.mechanics.rigid_body import RigidBody, State, Wrench
@@ -24,40 +24,54 @@ from tandemlift.parts.rotor_loss import decision as rotor_loss_decision
 from tandemlift.parts.rotor_loss import detection as rotor_loss_detection
 from tandemlift.parts.rotors import allocation
 
-V = Vec3(0.0, 0.0, 0.0)
-M = Mat3(V, V, V)
-Q = Quat(0.0, 0.0, 0.0, 0.0)
-EULER = rotation.Euler(V, *[0.0] * 7)
-BODY = RigidBody(0.0, V, V, V, V, V, V)
-JOINT = parts.Joint(V, V)
-SURFACE = sliding_surface.Surface(V, V, sliding_surface.Power(V), V, V, sliding_surface.Tanh(V))
-AXES = equations_of_motion.GeneralizedVector(V, V)
-STATE = State(V, V, Q, V)
-TWO, EIGHT = each(2)(0.0, 0.0), each(8)(*[0.0] * 8)  # a value of every quadrotor, and of every rotor
-MIXER = allocation.Mixer(EIGHT, EIGHT, EIGHT, EIGHT)
-FOURS, LOW = each(4)(*[0.0] * 4), low_pass.LowPass(*[0.0] * 4)
-SMOOTH, SMOOTHS = low_pass.LowPassState(FOURS, FOURS), low_pass.LowPassState(EIGHT, EIGHT)
-DETECTION = rotor_loss_detection.RotorLossDetection(
-    0.0, V, MIXER, LOW, LOW, LOW, LOW, FOURS, FOURS, EIGHT, EIGHT, rotor_loss_decision.DecisionRules(*[0.0] * 6)
-)
-WATCHING = rotor_loss_detection.DetectionState(
-    *[SMOOTHS] * 2, *[SMOOTH] * 4, rotor_loss_decision.DecisionState(EIGHT, 0.0, 0.0, EIGHT, 0.0)
-)
-HEARD = guidance.PilotInput(STATE, V, V, 0.0, Absent())
-SLOPE, STILL = low_pass.LowPassState(V, V), low_pass.LowPassState(0.0, 0.0)
-BLOWN = wind_compensation.PayloadDragState(V, 0.0, SLOPE)
-VEHICLE, OBSERVED = NominalBody(0.0, V, V), Observation(V, STATE, Wrench(0.0, V), V, V, Q, 0.0, 0.0)
-ALONE, LOW_PASS = kalman.KalmanObserver(VEHICLE, V, V, V), low_pass.LowPass(*[0.0] * 4)
-COMPARED = fused.Monitor(V, V, *[low_pass.LowPassState(V, V)] * 3)
-SPREAD = extended_kalman.BlockCovariance(*[V] * 6)
 
-SINES = excitation.Sines(*[each(4)(*[0.0] * 4)] * 3)
+def zeros_of(count: int) -> Any:
+    """So many zeros."""
+    return each(count)(*[0.0] * count)
+
+
+V, Q = zeros(Vec3), zeros(Quat)
+M = zeros(Mat3)
+EULER, STATE, WRENCH, JOINT = zeros(rotation.Euler), zeros(State), zeros(Wrench), zeros(parts.Joint)
+DIAGONAL = {"inertia": V, "inverse_inertia": V}
+BODY, VEHICLE = zeros(RigidBody, **DIAGONAL), zeros(NominalBody, **DIAGONAL)
+POWER, TANH = zeros(sliding_surface.Power), zeros(sliding_surface.Tanh)
+SURFACE = zeros(sliding_surface.Surface, exponent=POWER, switching=TANH)
+AXES = zeros(equations_of_motion.GeneralizedVector)
+TWO, FOURS, EIGHT = (zeros_of(count) for count in (2, 4, 8))  # a value of every quadrotor, rotor, and all rotors
+MIXER = allocation.Mixer(*[EIGHT] * len(allocation.Mixer._fields))
+LOW = zeros(low_pass.LowPass)
+SMOOTH, SMOOTHS, SLOPE = (low_pass.LowPassState(value, value) for value in (FOURS, EIGHT, V))
+DETECTION = zeros(
+    rotor_loss_detection.RotorLossDetection,
+    inertia=V,
+    effect=MIXER,
+    scatter=FOURS,
+    bound=FOURS,
+    trial=EIGHT,
+    numbers=EIGHT,
+)
+WATCHING = zeros(
+    rotor_loss_detection.DetectionState,
+    rotors=SMOOTHS,
+    thrusts=SMOOTHS,
+    **dict.fromkeys(("momentum", "others", "mean", "scatter"), SMOOTH),
+    verdict=zeros(rotor_loss_decision.DecisionState, lost=EIGHT, above=EIGHT),
+)
+HEARD = zeros(guidance.PilotInput, sensed=Absent())
+BLOWN, OBSERVED = zeros(wind_compensation.PayloadDragState, force=SLOPE), zeros(Observation)
+ALONE = zeros(kalman.KalmanObserver, body=VEHICLE)
+COMPARED = zeros(fused.Monitor)
+SINES = excitation.Sines(*[FOURS] * len(excitation.Sines._fields))
+ALL_AXES = dict.fromkeys(("thrust", "roll", "pitch", "yaw"), SINES)
+NO_AXES = dict.fromkeys(("thrust", "roll", "pitch", "yaw"), Absent())
+TWO_WAYS = excitation.ReferenceSines(x=SINES, y=Absent(), z=SINES)
 LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "outer": (outer, (V, V)),
     "rates from Euler rates": (rotation.rates_from_euler_rates, (EULER, V)),
-    "point on body": (parts.point_on_body, (parts.Point(V, V, V), M, V, V, V)),
+    "point on body": (parts.point_on_body, (zeros(parts.Point), M, V, V, V)),
     "quadrotor acceleration": (parts.quadrotor_acceleration, (0.0, V, V, 0.0, V, V, JOINT)),
-    "joint wrench, full": (parts.joint_wrench, (0.0, M, V, 0.0, V, V, parts.Acceleration(V, V))),
+    "joint wrench, full": (parts.joint_wrench, (0.0, M, V, 0.0, V, V, zeros(parts.Acceleration))),
     "joint on payload": (parts.joint_on_payload, (M, V, JOINT)),
     "payload acceleration": (parts.payload_acceleration, (0.0, V, V, JOINT)),
     "virtual inputs": (rotation.virtual_inputs, (EULER, 0.0)),
@@ -67,79 +81,50 @@ LAWS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "bound of the Lyapunov rate": (sliding_surface.lyapunov_rate_bound, (V, V, V, V)),
     "reaching time": (sliding_surface.reaching_time, (V, V, V, V)),
     "expanded dynamics": (equations_of_motion.expanded_dynamics, (BODY, V, V, AXES)),
-    "Euler dynamics": (equations_of_motion.euler_dynamics, (BODY, EULER, V, V, Wrench(0.0, V))),
+    "Euler dynamics": (equations_of_motion.euler_dynamics, (BODY, EULER, V, V, WRENCH)),
     "watching for a lost rotor": (
         rotor_loss_detection.detection_step,
         (DETECTION, WATCHING, HEARD, EIGHT, 0.0, 0.0, 0.0),
     ),
     "the wrench of rotors that are later than known": (
         delay.late_wrench,
-        (
-            delay.RotorDelay(LOW, 0.0, LOW_PASS, 0.0, 0.0),
-            delay.RotorDelayState(STILL, low_pass.LowPassState(V, V), STILL, STILL, 0.0, 0.0, Wrench(0.0, V)),
-            Wrench(0.0, V),
-            *[0.0] * 3,
-        ),
+        (zeros(delay.RotorDelay), zeros(delay.RotorDelayState), WRENCH, 0.0, 0.0, 0.0),
     ),
     "wind on the payload": (
         wind_compensation.wind_on_payload,
-        (wind_compensation.PayloadDrag(0.0, 0.0, V, LOW), BLOWN, TWO, TWO, 1.0, 0.0, 0.0, 1.0),
+        (zeros(wind_compensation.PayloadDrag), BLOWN, TWO, TWO, 1.0, 0.0, 0.0, 1.0),
     ),
     "a wrench with lead": (
         rotor_lead.lead_step,
-        (
-            rotor_lead.RotorLead(LOW, 0.0, V),
-            rotor_lead.RotorLeadState(low_pass.LowPassState(0.0, 0.0), SLOPE),
-            Wrench(0.0, V),
-        ),
+        (zeros(rotor_lead.RotorLead), zeros(rotor_lead.RotorLeadState), WRENCH),
     ),
     "an excited wrench": (
         excitation.excited,
-        (excitation.Excitation(0.0, 0.0, 0.0, 0.0, *[SINES] * 4, Absent()), Wrench(0.0, V), 0.0, 0.0),
+        (zeros(excitation.Excitation, **ALL_AXES, motion=Absent()), WRENCH, 0.0, 0.0),
     ),
     "the reference of an excitation": (
         excitation.excited_lead,
-        (
-            excitation.Excitation(*[0.0] * 4, *[Absent()] * 4, excitation.ReferenceSines(SINES, Absent(), SINES)),
-            Absent(),
-            0.0,
-        ),
+        (zeros(excitation.Excitation, **NO_AXES, motion=TWO_WAYS), Absent(), 0.0),
     ),
     "a smooth attitude reference": (
         attitude_reference.shape_reference,
-        (
-            attitude_reference.SmoothCommandFilter(LOW, attitude_reference.CommandFilter(0.0, LOW)),
-            attitude_reference.SmoothCommandFilterState(SLOPE, attitude_reference.CommandFilterState(V, V)),
-            V,
-        ),
+        (zeros(attitude_reference.SmoothCommandFilter), zeros(attitude_reference.SmoothCommandFilterState), V),
     ),
     "damping by a policy": (
         policy.policy_damping,
-        (policy.Policy(each(14)(*[0.0] * 14), each(6)(*[0.0] * 6), 0.0, V), low_pass.LowPassState(V, V), V, 0.0),
+        (zeros(policy.Policy, hidden=zeros_of(14), outputs=zeros_of(6)), SLOPE, V, 0.0),
     ),
-    "pure delay": (delay.delayed, (LOW, low_pass.LowPassState(V, V), V)),
-    "momentum": (
-        observe,
-        (momentum.MomentumObserver(VEHICLE, V, V), momentum.MomentumState(ExternalWrench(V, V), V, V, 0.0), OBSERVED),
-    ),
-    "hybrid": (observe, (hybrid.HybridObserver(VEHICLE, V, V), hybrid.HybridState(V, V, V, 0.0), OBSERVED)),
-    "kalman": (observe, (kalman.KalmanObserver(VEHICLE, V, V, V), kalman.KalmanState(V, V, V, 0.0), OBSERVED)),
+    "pure delay": (delay.delayed, (LOW, SLOPE, V)),
+    "momentum": (observe, (zeros(momentum.MomentumObserver, body=VEHICLE), zeros(momentum.MomentumState), OBSERVED)),
+    "hybrid": (observe, (zeros(hybrid.HybridObserver, body=VEHICLE), zeros(hybrid.HybridState), OBSERVED)),
+    "kalman": (observe, (ALONE, zeros(kalman.KalmanState), OBSERVED)),
     "extended kalman": (
         observe,
-        (
-            extended_kalman.ExtendedKalmanFilter(VEHICLE, V, V, 0.0, 0.0, 0.0, 0.0),
-            extended_kalman.FilterState(V, V, Q, V, V, V, SPREAD, SPREAD, 0.0),
-            OBSERVED,
-        ),
+        (zeros(extended_kalman.ExtendedKalmanFilter, body=VEHICLE), zeros(extended_kalman.FilterState), OBSERVED),
     ),
     "fused": (
         fused.fuse,
-        (
-            fused.FusedFilter(ALONE, V, V, 0.0, V, fused.TurningGains(V, V, V, V), V, V, LOW_PASS, LOW_PASS),
-            fused.FusedState(kalman.KalmanState(V, V, V, 0.0), COMPARED, COMPARED, 0.0, 0.0),
-            OBSERVED,
-            fused.JointPush(V, V, V, V, 0.0, 0.0, 0.0, 0.0),
-        ),
+        (zeros(fused.FusedFilter, alone=ALONE, inertia=V), zeros(fused.FusedState), OBSERVED, zeros(fused.JointPush)),
     ),
 }
 POSITIVE = {"extended kalman", "surface rate", "watching for a lost rotor"}

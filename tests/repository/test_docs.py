@@ -3,6 +3,8 @@
 import importlib
 import re
 import shlex
+import shutil
+import sys
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -17,9 +19,11 @@ from tandemlift.flight.channels import OTHER, channel_of
 
 DOCUMENTS = sorted(ROOT.glob("*.md"))  # the links of docs/ are checked when the site is built
 PAGES = sorted((ROOT / "docs" / "how-to").glob("*.md"))
-PAGES += [ROOT / "docs" / "reference" / f"{name}.md" for name in ("checks", "flights", "linearize", "studies")]
+PAGES += [
+    ROOT / "docs" / "reference" / f"{name}.md" for name in ("checks", "flights", "linearize", "missions", "studies")
+]
 # these need other programs or a minute, and have tests of their own
-ELSEWHERE = ("own-pilot-in-ros", "scaling", "certify", "excite-a-vehicle")
+ELSEWHERE = ("ros", "scaling", "certify", "excite-a-vehicle")
 CODE = [page for page in PAGES if page.stem not in ELSEWHERE and "\n```python\n" in page.read_text("utf-8")]
 # reference/controllers.md has tests of its own; the site's build runs the tutorials
 QUIET = pytest.mark.filterwarnings("error::tandemlift.core.errors.FlightWarning")
@@ -97,6 +101,18 @@ def test_documents_that_the_code_names_are_there_with_their_anchors():
     assert wrong == []
 
 
+def test_shell_commands_of_the_site_are_those_of_the_environment_that_builds_it(monkeypatch):
+    """Where it is not active, the first page showed "command not found"."""
+    monkeypatch.setenv("PATH", "/usr/bin")
+    monkeypatch.setattr("sys.path", [*sys.path])
+    conf = ROOT / "docs" / "conf.py"
+    exec(
+        compile(conf.read_text("utf-8"), str(conf), "exec"),
+        {"tags": type("Tags", (set,), {"has": set.__contains__})(), "__file__": str(conf)},
+    )
+    assert Path(shutil.which("tandemlift")).parent == Path(sys.executable).parent
+
+
 def test_changelog_citation_and_ros_package_have_the_version_of_the_package_and_one_date():
     def found(name, pattern):
         return re.search(pattern, (ROOT / name).read_text("utf-8"), flags=re.M)[1]
@@ -107,9 +123,10 @@ def test_changelog_citation_and_ros_package_have_the_version_of_the_package_and_
     assert found("CHANGELOG.md", r"^## (\[\d.*)") == f"[{__version__}] - {date}"
 
 
-def test_the_modules_that_the_changelog_moves_imports_to_are_there():
-    first = (ROOT / "CHANGELOG.md").read_text("utf-8").partition("\n## [1.0.0]")[2].partition("\n## ")[0]
-    rows = re.findall(r"^  \| `.*\| `(tandemlift\.[\w.]+)`.* \|$", first, flags=re.M)
+def test_the_modules_that_the_history_moves_imports_to_are_there():
+    history = (ROOT / "docs" / "history.md").read_text("utf-8")
+    last = history.partition("\n### From 0.2.0 to 1.0.0")[2].partition("\n### ")[0]
+    rows = re.findall(r"^  \| `.*\| `(tandemlift\.[\w.]+)`.* \|$", last, flags=re.M)
     assert rows
     assert [name for name in rows if find_spec(name) is None] == []
 

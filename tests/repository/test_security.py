@@ -64,13 +64,15 @@ def test_the_quadrotors_of_clients_are_at_the_ports_of_the_table():
     assert ROWS["`tandemlift mavlink`"][0].startswith(
         f"{listens}, which sends to {vehicles.PORT}, {vehicles.PORT + 1}, …"
     )
-    assert said(f"at most {vehicles.PACKETS} packets in a control step and answers at most {vehicles.MOST} clients")
+    assert said(
+        f"at most {vehicles.PACKETS} packets in a control step and answers at most {vehicles.MAX_CLIENTS} clients"
+    )
 
 
 def test_limits_of_messages_are_those_that_are_counted():
     assert said(f"A message has at most {page.MAX_LENGTH:,} characters and {page.MAX_PARTS} parts")
     assert said(f"{page.MAX_SIZE:,} characters, and {page.MAX_FILE_PARTS:,} parts with those of the file")
-    rejected = viewers.MAX_MESSAGES // viewers.REFUSED
+    rejected = viewers.MAX_MESSAGES // viewers.REFUSAL_COST
     assert said(f"more than {viewers.MAX_MESSAGES:,} messages per second, or {rejected} rejected messages per second")
     share, together = round(100 * viewers.MAX_WORK), round(100 * viewers.ALL_WORK)
     assert said(f"at most {share} % of a processor, those of all viewers {together} %")

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+import sys
+from typing import Any, NamedTuple, TypeVar, get_args, get_origin
 
 import numpy as np
 from hypothesis import strategies as st
@@ -60,6 +61,26 @@ def rebuilt(numbers: Any, like: Any) -> Any:
         return type(part)(*map(build, part)) if isinstance(part, tuple) else next(source)
 
     return build(like)
+
+
+def zeros(kind: Any, **given: Any) -> Any:
+    """A value of a law's type, zero in all fields but those that are given.
+
+    A field with a default keeps it. One that may be of several types must be given, or its name is told.
+    """
+    (*_, of), kind = (None, *get_args(kind)), get_origin(kind) or kind  # such as LowPassState[Vec3]
+    assert set(given) <= set(kind._fields), set(given) - set(kind._fields)
+    for name in kind._fields:
+        if name in given or name in kind._field_defaults:
+            continue
+        hint = kind.__annotations__[name]
+        hint = of if isinstance(hint, TypeVar) else getattr(hint, "__forward_arg__", hint)
+        if isinstance(hint, str):
+            hint = eval(hint, {"Number": float, **vars(sys.modules[kind.__module__])})
+        plain = hint in (float, Any)
+        assert plain or hasattr(get_origin(hint) or hint, "_fields"), f"give {name} of {kind.__name__}"
+        given[name] = 0.0 if plain else zeros(hint)
+    return kind(**given)
 
 
 def record(name: str, values: Any) -> Any:

@@ -17,7 +17,7 @@ def make_patient(put: Callable[[Any, str, Any], None] = setattr) -> None:
     """Let pages keep beam and turn although they are silent; `put` is `setattr` or its like."""
     serve = server.serve
     put(viewers, "SILENT", PATIENCE)
-    put(viewers, "IDLE", PATIENCE)
+    put(viewers, "HAND_TIMEOUT", PATIENCE)
     put(server, "serve", lambda *args, **options: serve(*args, **{**options, "ping_timeout": None}))
 
 

@@ -16,7 +16,7 @@ def channel_tables() -> str:
 def _section(group: ChannelGroup) -> str:
     rows = [_row(name, channel) for name, channel in group.channels.items()]
     note = f"{group.note.strip()}\n\n" if group.note else ""
-    return f"## {group.when}\n\n{note}{table(('channel', 'columns', 'unit', 'frame', 'meaning'), rows)}"
+    return f"### {group.when}\n\n{note}{table(('channel', 'columns', 'unit', 'frame', 'meaning'), rows)}"
 
 
 def _row(name: str, channel: Channel) -> tuple[str, ...]:

@@ -27,7 +27,7 @@ def errata_markdown() -> str:
     rows = "\n".join(f"| `{one.about}` | {one.kind} | {typeset(one.title)} |" for one in errata())
     parts = [f"| label | class | error |\n|---|---|---|\n{rows}"]
     for group, members in groupby(errata(), key=lambda erratum: erratum.group):
-        parts += [f"## {group}", *(_section(erratum) for erratum in members)]
+        parts += [f"### {group}", *(_section(erratum) for erratum in members)]
     return "\n\n".join(parts) + "\n"
 
 
@@ -41,7 +41,7 @@ def _section(erratum: Erratum) -> str:
     setting = f" Setting: `{erratum.setting}`." if erratum.setting else ""
     return "\n".join(
         (
-            f"### `{erratum.about}`: {typeset(erratum.title)}",
+            f"#### `{erratum.about}`: {typeset(erratum.title)}",
             "",
             f"- Class: {erratum.kind}",
             f"- Printed: {typeset(erratum.printed)}",

@@ -13,7 +13,7 @@ def metric_tables() -> str:
 
 def _section(group: MetricGroup) -> str:
     rows = [_row(name, metric) for name, metric in group.metrics.items()]
-    return f"## {group.when}\n\n{table(('metric', 'unit', 'components', 'meaning'), rows)}"
+    return f"### {group.when}\n\n{table(('metric', 'unit', 'components', 'meaning'), rows)}"
 
 
 def _row(name: str, metric: Metric) -> tuple[str, ...]:

@@ -106,7 +106,7 @@ static {state} {name}(const {problem} *problem, const {state} *held)
     return search.found;
 }}
 """
-WIDENED = """/* The same in single precision. The search is in doubles: where part of a wrench is out of reach,
+SINGLE_SOLVE = """/* The same in single precision. The search is in doubles: where part of a wrench is out of reach,
  * its sums cancel all digits of a float. */
 static {result} solve(const {given} *problem, const {result} *held)
 {{
@@ -168,4 +168,4 @@ def write_solver(file_unit: Unit, solver: TracedSolver) -> None:
     if unit is not file_unit:
         file_unit.take(unit)
         words |= {"given": file_unit.type_of(problem), "result": file_unit.type_of(held)}
-        file_unit.texts.append(WIDENED.format(**words, size=leaves(problem), held=leaves(held)))
+        file_unit.texts.append(SINGLE_SOLVE.format(**words, size=leaves(problem), held=leaves(held)))

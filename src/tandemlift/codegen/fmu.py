@@ -23,7 +23,7 @@ from tandemlift.missions import Mission
 from tandemlift.simulation.graphs import portable_mission
 
 VERSIONS = (2, 3)
-FIRST = (1980, 1, 1, 0, 0, 0)  # the time of all files in an FMU: the first that ZIP has
+FILE_TIME = (1980, 1, 1, 0, 0, 0)  # the time of all files in an FMU: the first that ZIP has
 MARK = "/*@TOKEN@*/"
 
 
@@ -69,7 +69,7 @@ def fmu_of(part: FmuPart, fmi: int, platforms: Sequence[str]) -> bytes:
             content |= libraries(files, part.identifier, name, fmi, Path(work))
     with zipfile.ZipFile(packed := io.BytesIO(), "w", zipfile.ZIP_DEFLATED) as archive:
         for name, data in content.items():
-            archive.writestr(zipfile.ZipInfo(name, FIRST), data, zipfile.ZIP_DEFLATED)
+            archive.writestr(zipfile.ZipInfo(name, FILE_TIME), data, zipfile.ZIP_DEFLATED)
     return packed.getvalue()
 
 

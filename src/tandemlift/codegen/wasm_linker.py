@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 HEADER = b"\0asm\1\0\0\0"
 CUSTOM, TYPE, IMPORT, FUNCTION, MEMORY, GLOBAL, EXPORT, CODE, DATA = 0, 1, 2, 3, 5, 6, 7, 10, 11
-PADDED = 5  # bytes of a number whose value is filled in by a linker
+PADDED_BYTES = 5  # bytes of a number whose value is filled in by a linker
 STACK = 1 << 16  # bytes
 PAGE = 1 << 16  # bytes
 ALIGNMENT = 64  # bytes
@@ -286,4 +286,4 @@ def _relocated(x: WasmObject, kind: int, name: str, places: list[int]) -> bytes:
 def _written(relocation: int, value: int) -> bytes:
     if relocation == WORD_ADDRESS:
         return struct.pack("<I", value)
-    return signed(value, PADDED) if relocation == SIGNED_ADDRESS else unsigned(value, PADDED)
+    return signed(value, PADDED_BYTES) if relocation == SIGNED_ADDRESS else unsigned(value, PADDED_BYTES)

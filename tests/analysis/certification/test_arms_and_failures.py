@@ -9,7 +9,7 @@ from scipy.stats import beta
 
 from tandemlift.analysis.certification.felt_admittance import FeltAdmittance
 from tandemlift.analysis.certification.person import ArmBox, _arms, passivity
-from tandemlift.analysis.certification.statistics import SHOWN, _claims
+from tandemlift.analysis.certification.statistics import SHOWN_ROWS, _claims
 from tandemlift.analysis.studies.execution.random_flights import RandomFlight
 from tandemlift.core.phases import FAILURES
 from tandemlift.missions import load_mission
@@ -98,7 +98,7 @@ def rows(failed, landed, flown):
     return [*found, *(RandomFlight(end, ("contact",)) for end in failed)]
 
 
-@pytest.mark.parametrize("failed", [(), ENDS[:1], (*ENDS, "refused"), ENDS[:1] * 2 * SHOWN])
+@pytest.mark.parametrize("failed", [(), ENDS[:1], (*ENDS, "refused"), ENDS[:1] * 2 * SHOWN_ROWS])
 def test_the_bounds_on_failures_and_findings_are_clopper_and_pearsons(failed, tmp_path):
     every = rows(failed, 7, 53)
     total, bad = len(every), [60 + i for i in range(len(failed))]
@@ -107,7 +107,7 @@ def test_the_bounds_on_failures_and_findings_are_clopper_and_pearsons(failed, tm
     assert failure.quantity == "probability of a failure, at most"
     assert f"{len(failed)} of {total} flights failed" in failure.text
     if bad:
-        assert f"rows {', '.join(map(str, bad[:SHOWN]))}{' …' if len(bad) > SHOWN else ''};" in failure.text
+        assert f"rows {', '.join(map(str, bad[:SHOWN_ROWS]))}{' …' if len(bad) > SHOWN_ROWS else ''};" in failure.text
         assert shlex.split(failure.command)[-2:] == ["--row", "60"]
     else:
         assert shlex.split(failure.command) == ["tandemlift", "report", str(tmp_path)]

@@ -12,7 +12,7 @@ from tandemlift.analysis.certification import felt_admittance, flown
 from tandemlift.analysis.certification.admittance_map import acceleration_per_force, admittance_family, family_limit
 from tandemlift.analysis.certification.claims import Claim, Tier
 from tandemlift.analysis.certification.felt_admittance import (
-    LARGEST,
+    CEILING,
     ArmImpedance,
     FeltAdmittance,
     is_coupled_stable,
@@ -134,9 +134,9 @@ def test_a_family_of_admittances_is_met_at_any_mass_and_damping(monkeypatch):
         expected = fractional(mission.mission.step)(mission, changes)
         assert family.at(m, c) == pytest.approx(np.diagonal(expected.Y, axis1=1, axis2=2))
         axes = [FeltAdmittance(W, expected.Y[:, i : i + 1, i : i + 1]) for i in range(3)]
-        limit = min(LARGEST, *(stiffness_limit(axis, 1.0) for axis in axes))
+        limit = min(CEILING, *(stiffness_limit(axis, 1.0) for axis in axes))
         assert family_limit(family, m, c, 1.0) == pytest.approx(limit, rel=1e-6)
-        assert limit < LARGEST
+        assert limit < CEILING
 
 
 def test_a_slow_push_accelerates_a_mass_and_a_steady_one_is_held_by_the_damping():
@@ -146,7 +146,7 @@ def test_a_slow_push_accelerates_a_mass_and_a_steady_one_is_held_by_the_damping(
 
 
 @pytest.mark.parametrize("fly", [False, True])
-@pytest.mark.parametrize("limit", [40.0, LARGEST])
+@pytest.mark.parametrize("limit", [40.0, CEILING])
 def test_a_map_of_arms_is_around_the_mission_and_flies_where_there_is_a_limit(fly, limit, monkeypatch):
     mission, asked = load_mission("iris"), []
     monkeypatch.setattr(maps, "admittance_family", lambda mission: "family")
@@ -162,7 +162,7 @@ def test_a_map_of_arms_is_around_the_mission_and_flies_where_there_is_a_limit(fl
     assert data["mission"] == [max(mission.admittance.mass), max(mission.admittance.damping)]
     assert data["arm_stiffness"] == limit
     assert np.shape(data["stiffness"]) == (len(data["mass"]), len(data["damping"]))
-    assert ("flown" in data) == bool(asked) == (fly and limit < LARGEST)
+    assert ("flown" in data) == bool(asked) == (fly and limit < CEILING)
     for (mass, damping, calm), flight in zip(data.get("flown", ()), asked, strict=True):
         assert calm == (mass <= heavy)
         assert (flight.admittance.mass, flight.admittance.damping) == ((mass,) * 3, (damping,) * 3)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tandemlift.analysis.certification import cut_loop, sector_bound
-from tandemlift.analysis.certification.cut_loop import DISTURBED, CutLoop, parts_of
+from tandemlift.analysis.certification.cut_loop import OFFSET_NAMES, CutLoop, parts_of
 from tandemlift.analysis.certification.intervals import bounds
 from tandemlift.analysis.certification.nonlinear import OffsetBounds, OffsetFlights, _offset_claims, sectors_of
 from tandemlift.analysis.certification.sector_bound import (
@@ -29,8 +29,8 @@ STEP = 1e-3
 def loop(C, D, *, states=(0.9, 0.8, 0.7, 0.6), error=0.0):
     """Four axes, each with a state of its own that its φ drives."""
     A, m = np.diag(states), len(AXES)
-    B = np.hstack([np.eye(m), 0.1 * np.eye(m, len(DISTURBED))])
-    return CutLoop(Plant(A, B, np.array(C), np.hstack([D, np.zeros((m, len(DISTURBED)))])), AXES, STEP, error)
+    B = np.hstack([np.eye(m), 0.1 * np.eye(m, len(OFFSET_NAMES))])
+    return CutLoop(Plant(A, B, np.array(C), np.hstack([D, np.zeros((m, len(OFFSET_NAMES)))])), AXES, STEP, error)
 
 
 COUPLED = [[0.1, 20.0, 0.0, 0.0], [0.002, 0.1, 0.0, 0.0], [0.0, 0.0, 0.1, 0.0], [0.0, 0.0, 0.0, 0.2]]
@@ -49,7 +49,7 @@ def test_a_part_is_the_loop_between_its_cuts_in_its_own_units():
         assert response(part.plant, z) == pytest.approx(expected, abs=part.error + 1e-9)
         assert part.error >= 0.01 * s.max() / s.min()
         assert np.abs(expected).max() < 50.0
-        assert len(starts) == len(DISTURBED)
+        assert len(starts) == len(OFFSET_NAMES)
     both = found[0][0]
     sizes = np.abs(response(both.plant, z)).max(axis=0)
     assert sizes[0, 1] == pytest.approx(sizes[1, 0], rel=0.2)  # balanced
@@ -121,7 +121,7 @@ def test_a_rotor_needs_some_room_and_none_at_all_is_refused():
 
 
 def test_offsets_are_flown_only_where_a_bound_was_found_and_flights_are_asked_for():
-    sizes = {name: 0.5 if name.endswith("x") else None for name in DISTURBED}
+    sizes = {name: 0.5 if name.endswith("x") else None for name in OFFSET_NAMES}
     found = SimpleNamespace(farthest=lambda offset: sizes[next(iter(offset))])
     asked = list[str]()
     flights = SimpleNamespace(limit=lambda name, size: asked.append(name))
@@ -130,7 +130,7 @@ def test_offsets_are_flown_only_where_a_bound_was_found_and_flights_are_asked_fo
     assert {claim.subject: claim.unit for claim in claims}["attitude.x"] == "rad"
     assert "(28.6 deg)" in next(c.text for c in claims if c.subject == "attitude.x")
     list(_offset_claims(found, flights, "fly"))
-    assert asked == [name for name in DISTURBED if name.endswith("x")]
+    assert asked == [name for name in OFFSET_NAMES if name.endswith("x")]
 
 
 @pytest.mark.parametrize(("name", "most"), [("velocity.x", 6.4), ("attitude.y", math.pi)])

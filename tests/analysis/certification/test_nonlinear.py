@@ -179,7 +179,7 @@ def test_the_tier_of_iris_is_complete_and_its_limits_are_flown_beyond():
         *("thrust loss tolerated", "thrust gain tolerated", "switching loss tolerated", "switching gain tolerated"),
     }
     flown = [c for c in tier.claims if c.flown is not None]
-    assert {c.subject for c in flown} == set(cut_loop.DISTURBED)
+    assert {c.subject for c in flown} == set(cut_loop.OFFSET_NAMES)
     assert all(c.value <= c.flown.below for c in flown)
     assert all(0.5 < c.value < 1.0 for c in tier.claims if c.quantity == "thrust loss tolerated")
 

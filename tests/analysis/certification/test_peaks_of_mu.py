@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tandemlift.analysis.certification import uncertain_loop as loops
-from tandemlift.analysis.certification.uncertain_loop import EVERY, proven_factor
+from tandemlift.analysis.certification.uncertain_loop import STRIDE, proven_factor
 
 PEAK = 7.3  # rad/s
 
@@ -31,7 +31,7 @@ def test_frequencies_are_close_about_the_peak_so_that_the_proof_reaches_its_heig
     assert found == pytest.approx(mu(w))
     assert factor == pytest.approx(1.0 / mu(w).max())
     assert factor == pytest.approx(1.0 / 0.8, rel=0.03)
-    coarse = (1e3) ** (EVERY / 240.0)
+    coarse = (1e3) ** (STRIDE / 240.0)
     between = (w > PEAK / coarse) & (w < PEAK * coarse)
     assert between.sum() > 10
     assert (w[0], w[-1]) == (0.1, pytest.approx(100.0))

@@ -12,11 +12,11 @@ from tandemlift.analysis.certification.claims import Tier
 from tandemlift.analysis.certification.shakes import (
     BEYOND,
     FREQUENCIES,
-    LEAST,
     LEVELS,
-    MOST,
+    MASS,
+    MAX_PEAK,
+    MIN_PEAK,
     PEAK,
-    PUSHED,
     SECONDS,
     Shake,
     ShakenMotion,
@@ -69,7 +69,7 @@ def test_gaussians_add_up_to_a_sine_that_begins_as_suddenly(frequency):
 
 
 def test_the_check_shakes_with_the_force_of_the_check_of_a_push():
-    assert (PEAK, PUSHED) == (authority.HAND_FORCE, authority.HAND_MASS)
+    assert (PEAK, MASS) == (authority.HAND_FORCE, authority.HAND_MASS)
 
 
 def test_deviations_are_the_largest_from_the_reference_since_the_shake_began():
@@ -102,7 +102,7 @@ def test_the_largest_peak_lies_within_half_a_step_of_where_answers_end(monkeypat
     scale = mission.hover.mass / 3.5
     hands = [hand._replace(frequency=f) for f, hand in enumerate(shaken_hands(mission)[:6], 1)]
     ends = dict(enumerate([0.3, 1.0, 2.2, 7.5, 8.1, 0.9], 1))
-    step = (MOST / LEAST) ** (1.0 / (LEVELS - 1))
+    step = (MAX_PEAK / MIN_PEAK) ** (1.0 / (LEVELS - 1))
 
     def fake(_, tried):
         for hand in tried:
@@ -113,7 +113,7 @@ def test_the_largest_peak_lies_within_half_a_step_of_where_answers_end(monkeypat
     monkeypatch.setattr(shakes, "flown_shakes", fake)
     for found, hand in zip(largest_shakes(mission, hands), hands, strict=True):
         end = ends[hand.frequency] * scale
-        if end > MOST * scale:
+        if end > MAX_PEAK * scale:
             assert found == math.inf
         else:
             assert step**-0.5 <= found / end <= step**0.5 * (1.0 + 1e-9)

@@ -244,26 +244,26 @@ def test_a_policy_with_weights_of_zero_is_the_admittance_alone(tmp_path):
 
 
 def test_the_smallest_push_is_the_last_before_one_that_is_followed_late():
-    time = np.arange(0.0, benchmark.FIRST + benchmark.EVERY * 4 * len(benchmark.FORCES) + 1.0, 0.004)
+    time = np.arange(0.0, benchmark.FIRST_PUSH + benchmark.PUSH_SPACING * 4 * len(benchmark.FORCES) + 1.0, 0.004)
 
     def flight_that_takes(seconds):
         """Of a flight that follows a push after `seconds(force)`."""
         active = np.zeros((len(time), 3))
         places = itertools.product(benchmark.FORCES, range(4))
         for n, (force, way) in enumerate(places):
-            begin = benchmark.FIRST + benchmark.EVERY * n + seconds(force)
+            begin = benchmark.FIRST_PUSH + benchmark.PUSH_SPACING * n + seconds(force)
             active[(time >= begin) & (time < begin + 0.5), way % 2] = 1.0
         return tl.Flight(time, {"push_active": active}, {}, {})
 
     assert benchmark.smallest_push(flight_that_takes(lambda force: 0.02)) == {"smallest_push_n": benchmark.FORCES[-1]}
     assert benchmark.smallest_push(flight_that_takes(lambda force: 0.1)) == {"smallest_push_n": math.inf}
     found = benchmark.smallest_push(flight_that_takes(lambda force: 0.05 / force))["smallest_push_n"]
-    assert 0.05 / found < benchmark.SOON < 0.05 / (found / 1.2)
+    assert 0.05 / found < benchmark.FOLLOW_TIME < 0.05 / (found / 1.2)
 
 
 def test_steps_of_pushes_have_their_force():
-    first = [p for p in benchmark.steps_of_pushes() if p["time"] < benchmark.FIRST + benchmark.EVERY]
-    at = benchmark.FIRST + 0.5 * benchmark.HELD
+    first = [p for p in benchmark.steps_of_pushes() if p["time"] < benchmark.FIRST_PUSH + benchmark.PUSH_SPACING]
+    at = benchmark.FIRST_PUSH + 0.5 * benchmark.PUSH_TIME
     force = sum(p["force"][0] * math.exp(-0.5 * ((at - p["time"]) / p["sigma"]) ** 2) for p in first)
     assert force == pytest.approx(benchmark.FORCES[0], rel=1e-3)
     assert rms([3.0, 4.0]) == pytest.approx(math.sqrt(12.5))

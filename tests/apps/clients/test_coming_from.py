@@ -16,14 +16,19 @@ from patience import completed, ended, said
 from repository import ROOT
 
 pytestmark = pytest.mark.clients
-CLIENTS = {"simulink": ("fmpy", "0.3.32"), "px4": ("mavsdk", "4.1.0"), "crazysim": ("cflib", "0.1.34")}
+CLIENTS = {  # by the heading of their section: the page, the client and its version
+    "Simulink": ("simulators", "fmpy", "0.3.32"),
+    "PX4": ("autopilots", "mavsdk", "4.1.0"),
+    "CrazySim": ("autopilots", "cflib", "0.1.34"),
+}
 
 
-def printed(page, folder, change=lambda script: script):
-    """What the one script of a page that other tests do not run prints, by the client in its known version."""
-    client, version = CLIENTS[page]
+def printed(other, folder, change=lambda script: script):
+    """What the one script of a section that other tests do not run prints, by the client in its known version."""
+    page, client, version = CLIENTS[other]
     assert importlib.metadata.version(client) == version
     text = (ROOT / "docs" / "how-to" / f"coming-from-{page}.md").read_text("utf-8")
+    text = text.partition(f"\n## {other}\n")[2].partition("\n## ")[0]
     (script,) = re.findall(r"^```\{code-block\} python\n(.*?)^```", text, re.M | re.S)
     (folder / "script.py").write_text(change(script), "utf-8")
     paths = [str(Path(find_spec(client).origin).parent.parent), os.environ.get("PYTHONPATH", "")]
@@ -49,16 +54,16 @@ def flying(folder, *command):
 
 
 def test_in_fmpy_the_beam_goes_as_far_as_impulse_over_damping(tmp_path):
-    assert f"in FMPy: {1.0 * 2.0 / 1.6:.3f} m" in printed("simulink", tmp_path)
+    assert f"in FMPy: {1.0 * 2.0 / 1.6:.3f} m" in printed("Simulink", tmp_path)
 
 
 def test_an_offboard_script_for_one_px4_flies_the_pair(tmp_path):
     with flying(tmp_path, "mavlink", "two-x500") as port:
-        lines = printed("px4", tmp_path, lambda script: script.replace("14540", str(port)))
+        lines = printed("PX4", tmp_path, lambda script: script.replace("14540", str(port)))
     assert lines[-1] == "north 1.0 m, down -2.0 m"
 
 
 def test_a_script_for_two_crazyflies_of_crazysim_flies_ours(tmp_path):
     with flying(tmp_path, "crazyflie") as port:
-        lines = printed("crazysim", tmp_path, lambda s: s.replace("19850", str(port)).replace("19851", str(port + 1)))
+        lines = printed("CrazySim", tmp_path, lambda s: s.replace("19850", str(port)).replace("19851", str(port + 1)))
     assert sorted(lines) == [f"udp://0.0.0.0:{port + i}: 0.3 m ahead, 0.5 m high" for i in (0, 1)]

@@ -16,7 +16,7 @@ from tandemlift.apps.clients.crazyflie.high_level import HighLevelCommander
 from tandemlift.apps.clients.crazyflie.server import CrazyflieServer
 from tandemlift.apps.clients.crazyflie.tables import NO_ENTRY, CrtpParameter, ParameterService
 from tandemlift.apps.clients.one_body import LoopGroup, tilt, together
-from tandemlift.apps.clients.quadrotors import LEVELS, STOPS, ArmingState, Quadrotors
+from tandemlift.apps.clients.quadrotors import LEVELLING_TIME, SHUTDOWN_TIME, ArmingState, Quadrotors
 from tandemlift.missions import load_mission
 
 STEP = 1e-3
@@ -180,7 +180,7 @@ def test_a_setpoint_is_flown_until_it_is_old_then_the_quadrotor_levels_out_and_s
     for i in range(2):
         quads.command(i, sp.AttitudeSetpoint(0.0, 0.0, 0.3 * weight))
     k, seen = 0, {}
-    for age in (0.9 * LEVELS, 1.1 * LEVELS, 0.9 * STOPS, 1.1 * STOPS):
+    for age in (0.9 * LEVELLING_TIME, 1.1 * LEVELLING_TIME, 0.9 * SHUTDOWN_TIME, 1.1 * SHUTDOWN_TIME):
         while (k + 1) * STEP <= age:
             k += 1
             thrusts = quads.update(k * STEP, AT_REST)

@@ -16,7 +16,7 @@ from tandemlift.apps.clients.mavlink.messages import (
     message,
 )
 from tandemlift.apps.clients.mavlink.modes import HOLD, LAND, LOSS_TIME, OFFBOARD, PARAMETERS, TAKEOFF, Autopilot
-from tandemlift.apps.clients.mavlink.parameters import LONGEST, MavlinkParameters, name_of
+from tandemlift.apps.clients.mavlink.parameters import MAX_NAME_LENGTH, MavlinkParameters, name_of
 from tandemlift.apps.clients.mavlink.vehicles import MavlinkVehicle
 from tandemlift.apps.clients.setpoints import PositionSetpoint, QuadrotorState, Stop
 from tandemlift.core.errors import InputError
@@ -53,7 +53,7 @@ def test_home_is_where_it_stood_looking_north():
 def test_names_of_parameters_have_at_most_sixteen_characters_and_end_as_the_keys_do():
     keys = ("wind.velocity_1", "estimator.wrench_observer.force_bandwidth", "admittance.damping", "a.b.c.d.e_12", "x")
     for key in (*keys, "controller.position_gain_of_the_outer_loop_2", "vehicle.payload.mass"):
-        assert len(name_of(key)) <= LONGEST
+        assert len(name_of(key)) <= MAX_NAME_LENGTH
         assert name_of(key).isascii()
     assert name_of("wind.velocity_1") == "WIND_VELOCITY_1"
     assert name_of("vehicle.payload.mass") == "VEHIC_PAYLO_MASS"

@@ -110,7 +110,7 @@ def test_a_ulog_without_our_topics_or_damaged_is_refused_by_name(tmp_path):
 
 
 def test_a_ulog_of_a_flight_makes_the_shadow_command_what_was_flown(tmp_path):
-    """With the map of docs/how-to/coming-from-px4.md: rotors as fractions, joints from `debug_array`."""
+    """With the map of docs/how-to/coming-from-autopilots.md: rotors as fractions, joints from `debug_array`."""
     pytest.importorskip("pyulog")
     mission = tl.load_mission("iris", {"mission.duration": 12.0, "mission.log_interval": 0.001})
     log = log_of(tl.fly(mission))
@@ -138,7 +138,7 @@ def test_a_ulog_of_a_flight_makes_the_shadow_command_what_was_flown(tmp_path):
         fields, time, rows = topics[name]
         topics[name] = fields, time, np.pad(rows, ((0, 0), (0, width - rows.shape[1])))
     stamped = {name: (f, [5_000_000 + round(1e6 * t) for t in time], rows) for name, (f, time, rows) in topics.items()}
-    text = (Path(__file__).parents[3] / "docs" / "how-to" / "coming-from-px4.md").read_text("utf-8")
+    text = (Path(__file__).parents[3] / "docs" / "how-to" / "coming-from-autopilots.md").read_text("utf-8")
     (tmp_path / "map.toml").write_text(re.search(r"<!-- map.toml -->\n```toml\n(.*?)```", text, re.S)[1], "utf-8")
     shadow = tl.shadow(tl.read_log(ulog_of(tmp_path / "flight.ulg", stamped), tmp_path / "map.toml"), mission)
     hover = (shadow.time > 9.0) & (shadow.time < 12.0)

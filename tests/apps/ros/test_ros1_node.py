@@ -152,8 +152,8 @@ def test_the_bag_that_rosbag_recorded_becomes_a_flight_with_its_report(client_ru
 
 
 def test_the_pilot_in_a_node_of_one_s_own_holds_the_vehicle(surroundings, program, tmp_path):
-    """As docs/how-to/own-pilot-in-ros.md shows it, with the odometry and the push of the node that flies."""
-    page, tool = (ROOT / "docs/how-to/own-pilot-in-ros.md").read_text("utf-8"), program("rostopic")
+    """As docs/how-to/ros.md shows it, with the odometry and the push of the node that flies."""
+    page, tool = (ROOT / "docs/how-to/ros.md").read_text("utf-8"), program("rostopic")
     (code,) = re.findall(r"```python\n(import numpy.*?)```", page, re.DOTALL)
     environment, _ = surroundings
     ours = environment | {"PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}

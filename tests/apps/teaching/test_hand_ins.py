@@ -13,7 +13,7 @@ from classroom import graded, handed_in
 from patience import until
 
 from tandemlift.apps.teaching.hand_ins import notebooks_in
-from tandemlift.apps.teaching.running import LEAST, MOST, shares
+from tandemlift.apps.teaching.running import MAX_MEMORY, MIN_MEMORY, shares
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="processes of POSIX")
 CHECKS = '''
@@ -239,8 +239,8 @@ def test_all_notebooks_together_may_take_three_quarters_of_the_memory(has, proce
     at_once, memory = shares(has, processors)
     assert 1 <= at_once <= processors
     assert at_once * memory <= 0.75 * has
-    assert memory <= MOST
-    assert memory >= LEAST or at_once == 1
+    assert memory <= MAX_MEMORY
+    assert memory >= MIN_MEMORY or at_once == 1
 
 
 @pytest.mark.thorough

@@ -119,7 +119,7 @@ def test_an_ffmpeg_that_fails_leaves_nothing_and_its_words_are_told(script, flig
 @pytest.mark.parametrize("dies", [False, True])
 def test_a_second_process_draws_the_same_bytes_and_the_first_one_all_if_it_dies(flight, monkeypatch, dies):
     drawn = [image.tobytes() for image in Animation(flight, SHOT)]
-    monkeypatch.setattr(second_studio, "WORTH", 1)
+    monkeypatch.setattr(second_studio, "MIN_PICTURES", 1)
     monkeypatch.setattr(second_studio.os, "cpu_count", lambda: 2)
     take = second_studio._Shared.take
     if dies:

@@ -7,15 +7,15 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tandemlift.analysis.certification.felt_admittance import LARGEST, FeltAdmittance, felt_admittance, stiffness_limit
+from tandemlift.analysis.certification.felt_admittance import CEILING, FeltAdmittance, felt_admittance, stiffness_limit
 from tandemlift.analysis.certification.flown import arm_keys, hover_as_flown, stability_in_hand
 from tandemlift.analysis.certification.parameters import with_keys
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission
 from tandemlift.simulation.fly import fly_many
 
-AROUND, MAP = (0.2, 5.0), 16  # factors of the mission's mass and damping in the map, and points along each
-FLOWN, FLOWN_MASS = 3, 1  # every third damping and every mass of the map is flown
+RANGE, MAP = (0.2, 5.0), 16  # factors of the mission's mass and damping in the map, and points along each
+STRIDE, MASS_STRIDE = 3, 1  # every third damping and every mass of the map is flown
 SPREAD = 3.0  # between the masses and dampings of a family's models
 LEAST_DAMPING = 0.1  # N s/m, in the map of a mission without damping
 
@@ -67,10 +67,10 @@ def admittance_family(mission: Mission) -> AdmittanceFamily:
 
 
 def family_limit(family: AdmittanceFamily, mass: float, damping: float, arm: float) -> float:
-    """The stiffness [N/m] from which on an axis oscillates in massless arms of a damping [N s/m]; at most `LARGEST`."""
+    """The stiffness [N/m] from which on an axis oscillates in massless arms of a damping [N s/m]; at most `CEILING`."""
     Y = family.at(mass, damping)
     axes = (FeltAdmittance(family.w, Y[:, i, None, None]) for i in range(3))
-    return min(LARGEST, *(stiffness_limit(axis, arm) for axis in axes))
+    return min(CEILING, *(stiffness_limit(axis, arm) for axis in axes))
 
 
 def admittance_map(mission: Mission, *, fly: bool = False) -> dict[str, Any]:
@@ -80,18 +80,18 @@ def admittance_map(mission: Mission, *, fly: bool = False) -> dict[str, Any]:
     calm in an arm's hand of that stiffness.
     """
     a, arm = mission.admittance, mission.person.damping
-    masses, dampings = (np.geomspace(*AROUND, MAP) * max(max(x), LEAST_DAMPING) for x in (a.mass, a.damping))
+    masses, dampings = (np.geomspace(*RANGE, MAP) * max(max(x), LEAST_DAMPING) for x in (a.mass, a.damping))
     family = admittance_family(mission)
     rows = [[family_limit(family, m, c, arm) for c in dampings] for m in masses]
     grid = {"mass": masses.tolist(), "damping": dampings.tolist(), "stiffness": rows}
     here = [max(a.mass), max(max(a.damping), LEAST_DAMPING)]
     stiffness = family_limit(family, here[0], here[1], arm)
     data = {**grid, "mission": here, "arm_stiffness": stiffness}
-    if not fly or stiffness >= LARGEST:
+    if not fly or stiffness >= CEILING:
         return data
     hover, at = hover_as_flown(mission)
     held = arm_keys(mission.person, hover, at, stiffness)
-    places = [(m, c) for c in grid["damping"][1::FLOWN] for m in grid["mass"][::FLOWN_MASS]]
+    places = [(m, c) for c in grid["damping"][1::STRIDE] for m in grid["mass"][::MASS_STRIDE]]
     keys = [{**held, "admittance.mass": [m] * 3, "admittance.damping": [c] * 3} for m, c in places]
     flights = fly_many([with_keys(hover, changes) for changes in keys])
     calm = [not stability_in_hand(flight) for flight in flights]

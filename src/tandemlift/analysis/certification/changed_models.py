@@ -13,23 +13,23 @@ import numpy as np
 from tandemlift.analysis.certification.parameters import PARAMETERS, with_keys
 from tandemlift.analysis.linearization.linear_model import continuous
 from tandemlift.analysis.linearization.linearize import linearize
-from tandemlift.analysis.linearization.loop_margins import NO_KINK, ON_CIRCLE, RESTING, WAITS, calm_mission, motion_of
+from tandemlift.analysis.linearization.loop_margins import DELAYS, NO_KINK, ON_CIRCLE, RESTING, calm_mission, motion_of
 from tandemlift.analysis.linearization.operating_point import OperatingPoint, flown_to
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import flat
 from tandemlift.missions import Mission
 from tandemlift.simulation.plan import FlightPlan
 
-STEP, CLOSER, ACCURACY = 1.25, 1.04, 0.01  # factors between values that bracket a limit; width of the last bracket
-DECAYED = 0.5  # of the motion before: what has decayed
-LEAST, MOST = 0.02, 50.0  # of the nominal value, between which a limit is looked for
+STEP, FINE_STEP, ACCURACY = 1.25, 1.04, 0.01  # factors between values that bracket a limit; width of the last bracket
+DECAY = 0.5  # of the motion before: what has decayed
+MIN_RATIO, MAX_RATIO = 0.02, 50.0  # of the nominal value, between which a limit is looked for
 
 
 class LinearLimit(NamedTuple):
     """A limit by linear models.
 
     Attributes:
-        value: of the parameter; 0 or infinite where there is none between `LEAST` and `MOST` of the nominal value.
+        value: of the parameter; 0 or infinite where there is none within the range of the search.
         frequency: of the oscillation there [rad/s]; 0 where the motion grows without one.
     """
 
@@ -54,7 +54,7 @@ class GrowthOfHover:
 
     def __init__(self, mission: Mission, name: str) -> None:
         self._mission, self._parameter = mission, PARAMETERS[name]
-        self._calm, self._last = calm_mission(mission, slow=1.0, wait=WAITS[-1])
+        self._calm, self._last = calm_mission(mission, slow=1.0, wait=DELAYS[-1])
         # an inertia does not change the hover, which is flown to once; from the floor, a body of another inertia may
         # be thrown off a hover that is stable
         self._hover = flown_to(self._calm, self._last) if name.endswith("inertia") else None
@@ -66,10 +66,10 @@ class GrowthOfHover:
         decay, and a hover that cannot be flown to, grow; by an infinite rate if no eigenvalue does.
         """
         found, before = complex(math.inf), math.inf
-        for wait in WAITS:
+        for wait in DELAYS:
             try:
                 changed = with_keys(self._calm, self._parameter.keys(self._mission, value))
-                at = self._last - WAITS[-1] + wait
+                at = self._last - DELAYS[-1] + wait
                 point = flown_to(changed, at) if self._hover is None else with_body_of(self._hover, changed)
                 model = linearize(point, inputs=["thrust_offsets"], outputs=["rotor_thrusts"], kink_tolerance=NO_KINK)
             except InputError:
@@ -80,7 +80,7 @@ class GrowthOfHover:
             worst = z[np.argmax(np.abs(z))]
             if grows := abs(worst) > 1.0 + ON_CIRCLE:
                 found = continuous(complex(worst), model.step)
-            if motion < RESTING or (not grows and motion < DECAYED * before < math.inf):
+            if motion < RESTING or (not grows and motion < DECAY * before < math.inf):
                 return found if grows else None
             before = motion
         return found
@@ -98,14 +98,14 @@ def linear_limit(mission: Mission, name: str, *, growing: bool, near: float | No
     Raises:
         InputError: no parameter has this name, or the mission cannot hover calmly.
     """
-    step = STEP if near is None else CLOSER
+    step = STEP if near is None else FINE_STEP
     nominal, growth = PARAMETERS[name].nominal(mission), GrowthOfHover(mission, name)
     factor = step if growing else 1.0 / step
     stable, value = nominal, nominal * factor if near is None else near
     s = growth(value)
     while s is None:
         stable, value = value, value * factor
-        if not LEAST * nominal < value < MOST * nominal:
+        if not MIN_RATIO * nominal < value < MAX_RATIO * nominal:
             return LinearLimit(math.inf if growing else 0.0, 0.0)
         s = growth(value)
     while stable == nominal and abs(math.log(value / nominal)) > 1.01 * math.log(step):  # back from `near`

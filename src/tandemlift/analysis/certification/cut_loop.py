@@ -37,13 +37,13 @@ from tandemlift.parts.pilot.commanded_thrusts import OFFSETS, REACHING, SURFACE,
 from tandemlift.simulation.pilot_api import pilot_at_start
 
 SURFACES = tuple(f"surface {axis}" for axis in ("x", "y", "z", "roll", "pitch", "yaw"))
-DISTURBED = tuple(f"{what}.{axis}" for what in OFFSETS for axis in "xyz")
-MOST_STATES, ENOUGH = 16, 0.02  # of a part; error bound, in units of the loop's response
-SMALL = 0.003  # size of a disturbance, in its unit, that hardly counts in the reduction
-EXACT = 1e-4  # error bound of the loop before it is split
-APART = 0.02  # of the largest response at equal scale, below which cuts are not coupled
+OFFSET_NAMES = tuple(f"{what}.{axis}" for what in OFFSETS for axis in "xyz")
+MAX_STATES, PART_ERROR = 16, 0.02  # of a part; error bound, in units of the loop's response
+DISTURBANCE = 0.003  # size of a disturbance, in its unit, that hardly counts in the reduction
+LOOP_ERROR = 1e-4  # error bound of the loop before it is split
+COUPLING = 0.02  # of the largest response at equal scale, below which cuts are not coupled
 ONE_WAY, SWEEPS = 1e-6, 20
-LOW, HIGH, POINTS = 0.05, 0.95, 80  # rad/s, of the Nyquist frequency
+LOW_END, HIGH_END, POINTS = 0.05, 0.95, 80  # rad/s, of the Nyquist frequency
 
 
 class CutLoop(NamedTuple):
@@ -100,10 +100,10 @@ def loop_of(mission: Mission) -> CutLoop:
     if max(abs(made.x1 - made.x0)[3:6]) > 1e-3:
         raise InputError(f"{mission.mission.name} does not hover calmly: its hover is not stable")
     B = np.hstack([made.B @ E, made.A @ _disturbances([graph.names[i] for i in request.choice.kept], len(made.A))])
-    C, D = F @ made.C, np.hstack([F @ made.D @ E, np.zeros((len(F), len(DISTURBED)))])
+    C, D = F @ made.C, np.hstack([F @ made.D @ E, np.zeros((len(F), len(OFFSET_NAMES)))])
     kept = connecting_states(made.A, B, C)
     whole = Plant(made.A[np.ix_(kept, kept)], B[kept], C[:, kept], D)
-    plant, error = reduced(without_resting_modes(whole), len(kept), EXACT)
+    plant, error = reduced(without_resting_modes(whole), len(kept), LOOP_ERROR)
     return CutLoop(plant, names, request.steps * calm.mission.step, error)
 
 
@@ -116,21 +116,21 @@ def _results(graph: Any, smooth: frozenset[int], law: Callable[..., Any]) -> lis
 
 def _disturbances(names: Sequence[str], size: int) -> Array:
     """The change of the states by each of `DISTURBED`; half an angle is a component of the quaternion."""
-    change = np.zeros((size, len(DISTURBED)))
-    for j, name in enumerate(DISTURBED):
+    change = np.zeros((size, len(OFFSET_NAMES)))
+    for j, name in enumerate(OFFSET_NAMES):
         change[names.index(f"state.{name}"), j] = 0.5 if name.startswith("attitude") else 1.0
     return change
 
 
 def parts_of(
-    loop: CutLoop, cuts: Sequence[str], unit: float = 1.0, disturbance: float = SMALL
+    loop: CutLoop, cuts: Sequence[str], unit: float = 1.0, disturbance: float = DISTURBANCE
 ) -> list[tuple[LoopPart, list[Start]]]:
     """The parts of a loop between some of its cuts, reduced, each with its starts after a unit disturbance."""
     from scipy.sparse.csgraph import connected_components  # which the loop has found installed
 
     chosen, m = [loop.names.index(name) for name in cuts], len(loop.names)
     p = loop.plant
-    w = np.geomspace(LOW, HIGH * math.pi / loop.step, POINTS)
+    w = np.geomspace(LOW_END, HIGH_END * math.pi / loop.step, POINTS)
     size = np.abs(
         response(Plant(p.A, p.B[:, chosen], p.C[chosen], p.D[np.ix_(chosen, chosen)]), np.exp(1j * w * loop.step))
     ).max(axis=0)
@@ -138,7 +138,7 @@ def parts_of(
     apart = _balance(size, ONE_WAY)
     equal = size * apart[:, None] / apart
     # coupled in one direction, or through others, is coupled
-    count, part_of = connected_components(equal > APART * np.diag(size).max())
+    count, part_of = connected_components(equal > COUPLING * np.diag(size).max())
     for own in (np.flatnonzero(part_of == number) for number in range(count)):
         scale, at = _balance(size[np.ix_(own, own)]) / unit, [chosen[i] for i in own]
         D = p.D[np.ix_(at, at)] * scale[:, None] / scale
@@ -146,12 +146,12 @@ def parts_of(
             p.A,
             np.hstack([p.B[:, at] / scale, disturbance * p.B[:, m:]]),
             p.C[at] * scale[:, None],
-            np.hstack([D, np.zeros((len(at), len(DISTURBED)))]),
+            np.hstack([D, np.zeros((len(at), len(OFFSET_NAMES)))]),
         )
-        few, error = reduced(part, MOST_STATES, ENOUGH)
+        few, error = reduced(part, MAX_STATES, PART_ERROR)
         rest = loop.error * scale.max() / scale.min()
         left, k = energies(difference(part, few)), len(at)
-        starts = [Start(few.B[:, k + j] / disturbance, left[k + j] / disturbance) for j in range(len(DISTURBED))]
+        starts = [Start(few.B[:, k + j] / disturbance, left[k + j] / disturbance) for j in range(len(OFFSET_NAMES))]
         found.append((LoopPart(Plant(few.A, few.B[:, :k], few.C, D), tuple(at), error + rest, scale), starts))
     return found
 

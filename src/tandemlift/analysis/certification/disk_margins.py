@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from tandemlift.core.errors import extra
 from tandemlift.core.types import Array
 
-COMPLEX = 2  # AB13MD's type of a block
-LARGEST = 2.0  # of α: the gain may then fall to 0, and grow without limit
+COMPLEX_BLOCK = 2  # AB13MD's type of a block
+MAX_ALPHA = 2.0  # of α: the gain may then fall to 0, and grow without limit
 
 
 class DiskMargin(NamedTuple):
@@ -36,7 +36,7 @@ class DiskMargin(NamedTuple):
     @property
     def gain(self) -> float:
         """Factor by which the gain may grow, or shrink; infinite from α = 2 on."""
-        return math.inf if self.alpha >= LARGEST else (2.0 + self.alpha) / (2.0 - self.alpha)
+        return math.inf if self.alpha >= MAX_ALPHA else (2.0 + self.alpha) / (2.0 - self.alpha)
 
     @property
     def gain_db(self) -> float:
@@ -61,7 +61,7 @@ def disk_sizes(L: NDArray[np.complexfloating]) -> Array:
         return 1.0 / np.abs(M[:, 0, 0])
     with extra("certify", "the disk margin of several loops"):
         import slycot
-    blocks, types = np.ones(n, int), np.full(n, COMPLEX)
+    blocks, types = np.ones(n, int), np.full(n, COMPLEX_BLOCK)
     return 1.0 / np.array([slycot.ab13md(np.asfortranarray(m), blocks, types)[0] for m in M])
 
 

@@ -26,11 +26,11 @@ from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.missions import Mission
 
-SLOWEST, FASTEST, POINTS = 0.03, 300.0, 240  # rad/s
-BEYOND, LASTS, REACH = 0.2, 1.0, 5.0  # N beyond the threshold and s of the push in whose middle the model is formed
-LARGEST = 1e5  # N/m, kg, s: more is not tried
+LOW_END, HIGH_END, POINTS = 0.03, 300.0, 240  # rad/s
+EXCESS, DURATION, REACH = 0.2, 1.0, 5.0  # N beyond the threshold and s of the push in whose middle the model is formed
+CEILING = 1e5  # N/m, kg, s: more is not tried
 ACCURACY = 5e-3  # relative
-GROWS = 1e-6  # beyond 1, of an eigenvalue that grows
+GROWTH = 1e-6  # beyond 1, of an eigenvalue that grows
 
 
 class FeltAdmittance(NamedTuple):
@@ -69,14 +69,14 @@ def felt_admittance(mission: Mission, changes: dict[str, Any] | None = None) -> 
         InputError: the controller is plain Python, a change is invalid, or the flight is lost.
     """
     hover, at = hover_as_flown(mission)
-    top = at + REACH * LASTS
-    pushes = [{"force": [x + BEYOND for x in mission.admittance.threshold], "time": top, "sigma": LASTS}]
+    top = at + REACH * DURATION
+    pushes = [{"force": [x + EXCESS for x in mission.admittance.threshold], "time": top, "sigma": DURATION}]
     hover = with_keys(hover, {"pushes": pushes, "mission.duration": top + 1.0, **(changes or {})})
     inputs, outputs = ["push_force", "push_moment"], ["velocity", "rates"]
     model = linearize(hover, top, inputs=inputs, outputs=outputs, kink_tolerance=NO_KINK).connected()
-    if np.abs(np.linalg.eigvals(model.A)).max() > 1.0 + GROWS:
+    if np.abs(np.linalg.eigvals(model.A)).max() > 1.0 + GROWTH:
         raise InputError(f"{mission.mission.name}: a push beyond the threshold makes the hover unstable")
-    w = np.geomspace(SLOWEST, min(FASTEST, 0.9 * math.pi / model.step), POINTS)
+    w = np.geomspace(LOW_END, min(HIGH_END, 0.9 * math.pi / model.step), POINTS)
     held = step_over_sample(w, hover.mission.step, model.step)
     x, y, z = np.add(mission.hover.vehicle.origin, (0.0, mission.person.grip, 0.0))  # the grip
     lever = np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])  # ω × r, body axes
@@ -97,7 +97,7 @@ def is_coupled_stable(felt: FeltAdmittance, Z: NDArray[np.complexfloating]) -> b
     return bool(abs(turned[-1] - turned[0] - (ends[1] - ends[0])) < math.pi)
 
 
-def largest_stable(stable: Callable[[float], bool], start: float, most: float = LARGEST) -> float:
+def largest_stable(stable: Callable[[float], bool], start: float, most: float = CEILING) -> float:
     """The smallest number above 0 at which stability is lost; infinite beyond `most`."""
     return largest(stable, start, most, ACCURACY)
 

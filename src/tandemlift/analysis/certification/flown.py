@@ -24,19 +24,19 @@ from tandemlift.flight.record import Flight
 from tandemlift.missions import HoverFacts, Mission, PersonTable, check, format_toml, merge, tables_of
 from tandemlift.simulation.fly import fly_many
 
-LEAST, MOST, COARSE, FINE = 0.5, 1.6, 16, 12  # factors of the predicted limit; flights that look for the limit
-PUSH, LASTS = 0.25, 0.1  # N along each axis at the nominal mass, s of its Gaussian: below the thresholds of a push
-SETTLES, WATCHED, LONG = 4.0, 8.0, 8.0  # s after the push; of each window; between their beginnings
-SMALL = 0.005  # of the largest motion: below it, motion is over
-PERSISTS = 0.8  # of the motion before: what is left of it at the end does not decay, also in a limit cycle
+START, END, SCAN, SEARCH = 0.5, 1.6, 16, 12  # factors of the predicted limit; flights that look for the limit
+PUSH, SIGMA = 0.25, 0.1  # N along each axis at the nominal mass, s of its Gaussian: below the thresholds of a push
+SETTLING, WINDOW, SPACING = 4.0, 8.0, 8.0  # s after the push; of each window; between their beginnings
+REST_RATIO = 0.005  # of the largest motion: below it, motion is over
+DECAY = 0.8  # of the motion before: what is left of it at the end does not decay, also in a limit cycle
 PULL = 0.02  # N along x and y, by which an arm begins to pull
-LARGE = 0.3  # rad/s and m/s: a motion that such a push or pull does not cause by itself
-SENSITIVE = 1e-4  # N: the threshold of a push while an arm holds the vehicle, which hides small oscillations else
-LOGGED = 0.005  # s
+MOTION = 0.3  # rad/s and m/s: a motion that such a push or pull does not cause by itself
+THRESHOLD = 1e-4  # N: the threshold of a push while an arm holds the vehicle, which hides small oscillations else
+INTERVAL = 0.005  # s
 LAGS = ("lag_up", "lag_down")
-ENDED = {*FAILURES, "landed"}  # outcomes of a hover that is lost: it lands by the alarm of its pilot only
+ENDINGS = {*FAILURES, "landed"}  # outcomes of a hover that is lost: it lands by the alarm of its pilot only
 LOST, OSCILLATES, REFUSED = "lost", "oscillation", "refused"
-PAST = 1.05  # of a limit: the mission beside it flies beyond, where the oscillation grows
+EXCESS = 1.05  # of a limit: the mission beside it flies beyond, where the oscillation grows
 
 
 class LimitTrial(NamedTuple):
@@ -82,7 +82,7 @@ def flown_limit(trial: LimitTrial, predicted: float, *, threads: int | None = No
         threads: for the flights; by default one for each processor.
     """
     grows = predicted >= trial.nominal
-    factors = np.geomspace(LEAST, MOST, COARSE)
+    factors = np.geomspace(START, END, SCAN)
     values = np.maximum(predicted * factors, trial.nominal) if grows else np.minimum(predicted / factors, trial.nominal)
     coarse = _flown(trial, values, threads)
     bad = next((i for i, (_, ended) in enumerate(coarse) if ended), None)
@@ -90,7 +90,7 @@ def flown_limit(trial: LimitTrial, predicted: float, *, threads: int | None = No
         return FlownLimit(float(values[-1]), math.inf if grows else 0.0, math.nan, "")
     if bad == 0:
         return FlownLimit(trial.nominal, float(values[0]), *_end(coarse[0]))
-    fine = np.geomspace(values[bad - 1], values[bad], FINE)[1:]
+    fine = np.geomspace(values[bad - 1], values[bad], SEARCH)[1:]
     found = [*_flown(trial, fine[:-1], threads), coarse[bad]]
     first = next(i for i, (_, ended) in enumerate(found) if ended)
     below = fine[first - 1] if first else values[bad - 1]
@@ -127,7 +127,7 @@ def hover_as_flown(mission: Mission) -> tuple[Mission, float]:
 
 
 def _times(at: float) -> dict[str, Any]:
-    return {"mission.duration": at + SETTLES + LONG + WATCHED, "mission.log_interval": LOGGED}
+    return {"mission.duration": at + SETTLING + SPACING + WINDOW, "mission.log_interval": INTERVAL}
 
 
 def kick_keys(hover: HoverFacts, at: float, mass_scale: float) -> dict[str, Any]:
@@ -136,7 +136,7 @@ def kick_keys(hover: HoverFacts, at: float, mass_scale: float) -> dict[str, Any]
     place = np.add(hover.vehicle.origin, hover.vehicle.quadrotors[0].position).tolist()
     # in proportion to the mass: a lighter vehicle moved more, and its pilot, who assumes the nominal mass, felt a push
     force = PUSH * mass_scale
-    pushes = [{"force": [force] * 3, "time": at + 3.0 * LASTS, "sigma": LASTS, "point": place}]
+    pushes = [{"force": [force] * 3, "time": at + 3.0 * SIGMA, "sigma": SIGMA, "point": place}]
     return {"pushes": pushes, **_times(at)}
 
 
@@ -149,7 +149,7 @@ def arm_keys(p: PersonTable, hover: Mission, at: float, stiffness: float) -> dic
     place = {"point": [place + aside for place in hand], "dwell": 1e4}
     arm = {"stiffness": stiffness, "damping": p.damping, "tremor": 0.0, "max_force": 1e4}
     person = {"model": "hold", "grip": p.grip, "path": [place], "start_time": at, "delay": 0.01, **arm}
-    return {"person": person, "admittance.threshold": [SENSITIVE] * 3, **_times(at)}
+    return {"person": person, "admittance.threshold": [THRESHOLD] * 3, **_times(at)}
 
 
 def motions(flight: Flight) -> Array:
@@ -161,38 +161,38 @@ def sizes_of_motion(flight: Flight) -> tuple[Array, Array, Array]:
     """Sizes (4,) of the motions: root mean squares about the mean after the push, and at the end; the largest value."""
     motion, end = motions(flight), flight.time[-1]
     first, last = (
-        motion[(flight.time >= start) & (flight.time <= start + WATCHED)].std(axis=0)
-        for start in (end - LONG - WATCHED, end - WATCHED)
+        motion[(flight.time >= start) & (flight.time <= start + WINDOW)].std(axis=0)
+        for start in (end - SPACING - WINDOW, end - WINDOW)
     )
-    return first, last, np.abs(motion[flight.time >= end - LONG - WATCHED - SETTLES]).max(axis=0)
+    return first, last, np.abs(motion[flight.time >= end - SPACING - WINDOW - SETTLING]).max(axis=0)
 
 
 def stability(flight: Flight) -> str:
     """The end of the stability of a kicked flight: "oscillation" or "lost"; "" if it is stable."""
-    if flight.outcome in ENDED or flight.failure:
+    if flight.outcome in ENDINGS or flight.failure:
         return LOST
     first, last, most = sizes_of_motion(flight)
-    return OSCILLATES if np.any((last > PERSISTS * first) & (last > SMALL * most)) or last.max() > LARGE else ""
+    return OSCILLATES if np.any((last > DECAY * first) & (last > REST_RATIO * most)) or last.max() > MOTION else ""
 
 
 def stability_in_hand(flight: Flight) -> str:
     """The end of stability, as of `stability`, in an arm's hand, whose limits keep an oscillation from growing on."""
-    if flight.outcome in ENDED or flight.failure:
+    if flight.outcome in ENDINGS or flight.failure:
         return LOST
     first, last, each = sizes_of_motion(flight)
     most = each.max()
-    return OSCILLATES if np.any((last > PERSISTS * first) & (last > SMALL * most)) or most > LARGE else ""
+    return OSCILLATES if np.any((last > DECAY * first) & (last > REST_RATIO * most)) or most > MOTION else ""
 
 
 def frequency_of(flight: Flight) -> float:
     """The frequency [rad/s] of the largest motion of the last window, by its crossings of its mean."""
-    motion = motions(flight)[flight.time >= flight.time[-1] - WATCHED]
+    motion = motions(flight)[flight.time >= flight.time[-1] - WINDOW]
     values = motion[:, int(np.argmax(motion.std(axis=0)))]
     values = values - values.mean()
     crossings = np.flatnonzero((values[:-1] < 0.0) != (values[1:] < 0.0))
     if len(crossings) < 3:
         return math.nan
-    return float(math.pi * (len(crossings) - 1) / (LOGGED * (crossings[-1] - crossings[0])))
+    return float(math.pi * (len(crossings) - 1) / (INTERVAL * (crossings[-1] - crossings[0])))
 
 
 def with_limits(tier: Tier, mission: Mission, fly: bool) -> Tier:
@@ -214,4 +214,4 @@ def with_limits(tier: Tier, mission: Mission, fly: bool) -> Tier:
 
 def _mission_beyond(trial: LimitTrial, limit: float) -> Mission:
     """The mission that flies beyond a limit."""
-    return trial.mission(limit * PAST if limit >= trial.nominal else limit / PAST)
+    return trial.mission(limit * EXCESS if limit >= trial.nominal else limit / EXCESS)

@@ -19,7 +19,7 @@ import numpy as np
 
 from tandemlift.core.types import Array
 
-WIDE = 4  # steps of the last place
+ULPS = 4  # steps of the last place
 SLACK = 1e-12  # relative, of an argument that may be a quarter turn
 
 
@@ -150,7 +150,7 @@ def _unless(bad: Any, x: Interval) -> Interval:
 
 def _monotone(function: Callable[[Any], Any], least: float = -math.inf) -> Callable[[Any], Interval]:
     def bounded(x: Interval) -> Interval:
-        return Interval(np.maximum(_down(function(x.lo), WIDE), least), _up(function(x.hi), WIDE))
+        return Interval(np.maximum(_down(function(x.lo), ULPS), least), _up(function(x.hi), ULPS))
 
     return bounded
 
@@ -164,7 +164,7 @@ def _periodic(function: Callable[[Any], Any], top: float) -> Callable[[Any], Int
 
     def bounded(x: Interval) -> Interval:
         a, b = function(x.lo), function(x.hi)
-        low, high = np.maximum(_down(np.minimum(a, b), WIDE), -1.0), np.minimum(_up(np.maximum(a, b), WIDE), 1.0)
+        low, high = np.maximum(_down(np.minimum(a, b), ULPS), -1.0), np.minimum(_up(np.maximum(a, b), ULPS), 1.0)
         widened = Interval(np.where(reaches(x, top + math.pi), -1.0, low), np.where(reaches(x, top), 1.0, high))
         return _unless(np.isnan(a + b), widened)
 
@@ -179,7 +179,7 @@ def _tangent(x: Interval) -> Interval:
 def _angle(y: Interval, x: Interval) -> Interval:
     ends = [np.arctan2(b, a) for a in (x.lo, x.hi) for b in (y.lo, y.hi)]
     cut, turn = (x.lo <= 0.0) & (y.lo <= 0.0) & (y.hi >= 0.0), _up(math.pi)
-    low, high = _down(_least(ends), WIDE), _up(-_least(-end for end in ends), WIDE)
+    low, high = _down(_least(ends), ULPS), _up(-_least(-end for end in ends), ULPS)
     found = Interval(np.where(cut, -turn, low), np.where(cut, turn, high))
     return _unless(np.isnan(low), found)
 

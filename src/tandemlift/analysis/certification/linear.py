@@ -18,7 +18,7 @@ from tandemlift.analysis.certification.claims import Claim, Tier
 from tandemlift.analysis.certification.disk_margins import disk_margin, disk_sizes
 from tandemlift.analysis.linearization.loop_margins import (
     AXES,
-    MOST,
+    MAX_LAG,
     OpenLoop,
     axis_margins,
     is_stable,
@@ -133,8 +133,8 @@ def rotor_limits(loop: LoopAsFlown) -> Iterator[Claim]:
         ("lag", loop.lag, largest(lambda x: is_stable(loop.open, loop.delay, x))),
     ):
         if at == math.inf:
-            text = f"no {name} up to {MOST:g} s makes the loops oscillate"
-            yield Claim(f"{name} limit", "", at, "ms", text=text, tried=1e3 * MOST)
+            text = f"no {name} up to {MAX_LAG:g} s makes the loops oscillate"
+            yield Claim(f"{name} limit", "", at, "ms", text=text, tried=1e3 * MAX_LAG)
             continue
         limit = loop._replace(delay=at) if name == "delay" else loop._replace(lag=at)
         axis, frequency = oscillation(limit.open.w, limit.L)

@@ -26,7 +26,7 @@ from tandemlift.missions.checks import FlightCheck, mission_checks
 NEAR_PHASE = 1.0 / 6.0  # of 180 deg: less than 30 deg of phase left is close
 NEAR_GAIN = 0.4  # a gain that may grow by less than a factor of 1.7, or fall by less, is close
 NEAR_DELAY = 0.3
-SLOWEST = 5  # modes that are checked
+MODE_COUNT = 5  # modes that are checked
 
 LOOP_CHECKS = (
     FlightCheck("loop phase", "phase lag of an axis where its loop's gain is 1", "180°", "deg", "", "the gains"),
@@ -152,7 +152,7 @@ def margins(loop: OpenLoop, delay: float, lag: float) -> Iterator[CheckResult]:
 
 def modes(every: Iterable[Mode]) -> Iterator[CheckResult]:
     """Check that no mode grows: the least damped ones."""
-    for mode in sorted((mode for mode in every if mode.frequency > 0.0), key=lambda mode: mode.damping)[:SLOWEST]:
+    for mode in sorted((mode for mode in every if mode.frequency > 0.0), key=lambda mode: mode.damping)[:MODE_COUNT]:
         names = ", ".join(name for name, _ in mode.states[:2])
         text = f"a mode of {mode.frequency:.3g} Hz grows: {names}"
         yield judged("loop mode", -mode.damping, 0.0, "1", text, subject=f"{mode.frequency:.3g} Hz: {names}")

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from tandemlift.analysis.certification.claims import Claim, FlownLimit, Tier
-from tandemlift.analysis.certification.cut_loop import DISTURBED, SURFACES, CutLoop, loop_of, parts_of
+from tandemlift.analysis.certification.cut_loop import OFFSET_NAMES, SURFACES, CutLoop, loop_of, parts_of
 from tandemlift.analysis.certification.intervals import bounds
 from tandemlift.analysis.certification.sector_bound import LoopPart, Sectors, Start, region_of, solvers, tolerated
 from tandemlift.analysis.linearization.loop_margins import AXES, bisected, calm_mission
@@ -25,15 +25,15 @@ from tandemlift.simulation.pilot_api import PilotData, pilot_at_start
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.stepping import Stepper
 
-SLIGHT = 1e-3  # of the largest response to an offset, below which a part does not respond
-MOST_GAIN = 4.0  # that is tried, times a response
+RESPONSE_FLOOR = 1e-3  # of the largest response to an offset, below which a part does not respond
+MAX_GAIN = 4.0  # that is tried, times a response
 UNITS = {"velocity": "m/s", "rates": "rad/s", "attitude": "rad"}
-SETTLES, RESTS = 8.0, 0.1  # s after an offset; m/s and rad/s, of a vehicle that has recovered
-LARGEST = 64.0  # times the predicted offset, that is flown
+RECOVERY_TIME, REST_RATE = 8.0, 0.1  # s after an offset; m/s and rad/s, of a vehicle that has recovered
+MAX_FACTOR = 64.0  # times the predicted offset, that is flown
 ACCURACY = 0.05  # of a flown offset
 BOX = {"position": 0.05, "velocity": 0.1, "angles": 0.05, "rates": 0.1}  # m, m/s, rad, rad/s: a box of scale 1
-PIECES = 3  # of each angle
-LARGEST_BOX, BOX_BISECTIONS = 100.0, 14
+PIECE_COUNT = 3  # of each angle
+MAX_BOX_SCALE, BOX_BISECTIONS = 100.0, 14
 DISTURBANCE = 0.2  # size of an offset, in its unit, whose response is reduced as exactly as the loop's
 
 
@@ -72,10 +72,10 @@ def _sector_claims(loop: CutLoop, priorities: Sequence[float]) -> Iterator[Claim
             def stable(share: float, part: LoopPart = part) -> bool:
                 return region_of(part, sectors_of(part, priorities, share)) is not None
 
-            lost, added = tolerated(stable, 1.0), tolerated(lambda x: stable(-x), MOST_GAIN)
+            lost, added = tolerated(stable, 1.0), tolerated(lambda x: stable(-x), MAX_GAIN)
             text, all_of_it = texts[what], "; tanh and saturation lose less than 1" if what == "switching" else ""
             yield Claim(f"{what} loss tolerated", subject, lost or None, "1", text=text.format("lost", all_of_it))
-            added = math.inf if added == MOST_GAIN else added
+            added = math.inf if added == MAX_GAIN else added
             yield Claim(f"{what} gain tolerated", subject, added or None, "1", text=text.format("added", ""))
 
 
@@ -105,14 +105,14 @@ class OffsetBounds:
 
     def farthest(self, offset: Mapping[str, float]) -> float | None:
         """The largest factor of an offset, by the names of `DISTURBED`, that is recovered; None if none is found."""
-        shares = np.array([offset.get(name, 0.0) for name in DISTURBED])
+        shares = np.array([offset.get(name, 0.0) for name in OFFSET_NAMES])
         moved = [
             Start(shares @ [s.state for s in starts], float(abs(shares) @ [s.left_out for s in starts]))
             for _, starts in self._parts
         ]
         most, found = max(float(np.linalg.norm(start.state)) for start in moved), math.inf
         for (part, _), sectors, start in zip(self._parts, self._sectors, moved, strict=True):
-            if np.linalg.norm(start.state) > SLIGHT * most:
+            if np.linalg.norm(start.state) > RESPONSE_FLOOR * most:
                 region = region_of(part, sectors, start)
                 if region is None:
                     return None
@@ -128,9 +128,9 @@ class OffsetFlights:
         tables = tables_of(calm)
         for own, real in zip(tables["vehicle"]["quadrotors"], mission.vehicle.quadrotors, strict=True):
             own |= {"lag_up": real.lag_up, "lag_down": real.lag_down, "max_speed": real.max_speed}
-        tables["mission"]["duration"] = at + SETTLES
+        tables["mission"]["duration"] = at + RECOVERY_TIME
         plan = FlightPlan(check(tables, mission.mission.name, quiet=True))
-        self._first, self._last = round(at / plan.dt), round((at + SETTLES) / plan.dt)
+        self._first, self._last = round(at / plan.dt), round((at + RECOVERY_TIME) / plan.dt)
         self._stepper = Stepper(plan)
         for k in range(self._first):
             self._stepper.step(k)
@@ -146,11 +146,11 @@ class OffsetFlights:
             s.step(k)
             if s.lost:
                 return False
-        return bool(np.abs([*s.a[3:6], *s.a[10:13]]).max() < RESTS)
+        return bool(np.abs([*s.a[3:6], *s.a[10:13]]).max() < REST_RATE)
 
     def limit(self, name: str, predicted: float) -> FlownLimit:
         """The offset of one name from which flights no longer recover, above what is predicted."""
-        low, high, most = 0.0, predicted, math.pi if name.startswith("attitude") else LARGEST * predicted
+        low, high, most = 0.0, predicted, math.pi if name.startswith("attitude") else MAX_FACTOR * predicted
         while self.recovers({name: high}):
             low, high = high, min(2.0 * high, most)
             if low == most:
@@ -160,7 +160,7 @@ class OffsetFlights:
 
 
 def _offset_claims(bounds: OffsetBounds, flights: OffsetFlights | None, command: str) -> Iterator[Claim]:
-    for name in DISTURBED:
+    for name in OFFSET_NAMES:
         what, axis = name.split(".")
         size = bounds.farthest({name: 1.0})
         shown = "" if size is None or what != "attitude" else f" ({math.degrees(size):.3g} deg)"
@@ -171,7 +171,7 @@ def _offset_claims(bounds: OffsetBounds, flights: OffsetFlights | None, command:
 
 def box_of(half: Array) -> tuple[Array, Array]:
     """The ends (12, N) of the pieces of a box of states (12) about rest: its angles are cut in `PIECES`."""
-    cuts = [np.linspace(-h, h, (PIECES if 6 <= i < 9 else 1) + 1) for i, h in enumerate(half)]
+    cuts = [np.linspace(-h, h, (PIECE_COUNT if 6 <= i < 9 else 1) + 1) for i, h in enumerate(half)]
     low, high = (np.meshgrid(*[c[part] for c in cuts], indexing="ij") for part in (slice(None, -1), slice(1, None)))
     return np.array([x.ravel() for x in low]), np.array([x.ravel() for x in high])
 
@@ -188,21 +188,21 @@ def _box_claims(pilot: PilotData, most: Sequence[float]) -> Iterator[Claim]:
         return bool(np.isfinite(bounds(thrusts, *box_of(half))).all())
 
     whole, most_angle = (
-        tolerated(lambda scale: finite(scale * sizes), LARGEST_BOX, BOX_BISECTIONS),
-        LARGEST_BOX * BOX["angles"],
+        tolerated(lambda scale: finite(scale * sizes), MAX_BOX_SCALE, BOX_BISECTIONS),
+        MAX_BOX_SCALE * BOX["angles"],
     )
     text = f"within {_box_text(whole)}, no NaN"
     yield Claim("finite thrusts", "all", whole * BOX["angles"], "rad", text=text, tried=most_angle)
     if not most:
         return
-    whole = tolerated(lambda scale: within(scale * sizes), LARGEST_BOX, BOX_BISECTIONS)
+    whole = tolerated(lambda scale: within(scale * sizes), MAX_BOX_SCALE, BOX_BISECTIONS)
     text = f"within {_box_text(whole)}"
     yield Claim("thrusts within limits", "all", whole * BOX["angles"], "rad", text=text, tried=most_angle)
     for i, (name, unit) in enumerate(zip(BOX, ("m", "m/s", "rad", "rad/s"), strict=True)):
         alone = sizes * (np.arange(12) // 3 == i)
-        size = BOX[name] * tolerated(lambda scale: within(scale * alone), LARGEST_BOX, BOX_BISECTIONS)  # noqa: B023
+        size = BOX[name] * tolerated(lambda scale: within(scale * alone), MAX_BOX_SCALE, BOX_BISECTIONS)  # noqa: B023
         text = f"with any {name} of up to this on each axis at once"
-        yield Claim("thrusts within limits", name, size, unit, text=text, tried=LARGEST_BOX * BOX[name])
+        yield Claim("thrusts within limits", name, size, unit, text=text, tried=MAX_BOX_SCALE * BOX[name])
 
 
 def _box_text(scale: float) -> str:

@@ -10,7 +10,7 @@ from tandemlift.core.errors import unknown
 from tandemlift.missions import Mission, changed_tables, check, tables_of
 
 ARM = "arm stiffness"
-LIFTED = 1.0 - 1e-9  # of the mass that the rotors lift: rounding refuses no mission
+LIFTED_SHARE = 1.0 - 1e-9  # of the mass that the rotors lift: rounding refuses no mission
 
 
 class UncertainParameter(NamedTuple):
@@ -41,7 +41,7 @@ def _mass_keys(mission: Mission, scale: float) -> dict[str, Any]:
     most = hover.lift / hover.vehicle.weight
     if mission.actuators.model != "rotors" or scale <= most:
         return {"plant.mass_scale": scale}
-    held = LIFTED * most
+    held = LIFTED_SHARE * most
     return {"plant.mass_scale": held, "disturbance.force": [x, y, z - (scale - held) * hover.vehicle.weight]}
 
 

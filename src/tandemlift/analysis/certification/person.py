@@ -13,7 +13,7 @@ from tandemlift.analysis.certification.admittance_map import admittance_map
 from tandemlift.analysis.certification.claims import Claim, Tier
 from tandemlift.analysis.certification.contact_limits import HAND, contact_claims
 from tandemlift.analysis.certification.felt_admittance import (
-    LARGEST,
+    CEILING,
     ArmImpedance,
     FeltAdmittance,
     felt_admittance,
@@ -29,7 +29,7 @@ from tandemlift.core.types import Array
 from tandemlift.missions import Mission, PersonTable
 
 TITLE = "Person: an arm that holds the vehicle, and contact"
-LATEST = 10.0  # s: a later person is not tried
+MAX_DELAY = 10.0  # s: a later person is not tried
 ASSUMPTIONS = (
     "The vehicle hovers calmly; a push along all axes is beyond its threshold, so that the admittance responds.",
     "The model is linear: no limit of speed, acceleration, tilt or thrust, dead band or energy tank acts.",
@@ -132,20 +132,20 @@ def _arms(p: PersonTable, felt: FeltAdmittance, box: ArmBox) -> Iterator[Claim]:
         frequency,
         parameter=ARM,
         limit=at if at < math.inf else None,
-        tried=LARGEST,
+        tried=CEILING,
     )
     worst = min((stiffness_limit(felt, b, m), b, m) for b in np.linspace(0.0, box.damping, 4) for m in (0.0, box.mass))
     text = (
         f"damping up to {box.damping:g} N s/m, hands up to {box.mass:g} kg at the grip: the worst of them has "
         f"{worst[1]:.3g} N s/m and {worst[2]:g} kg"
     )
-    yield Claim("arm stiffness limit, box", "", worst[0], "N/m", box.stiffness, text, tried=LARGEST)
+    yield Claim("arm stiffness limit, box", "", worst[0], "N/m", box.stiffness, text, tried=CEILING)
     heavy = largest_stable(lambda m: is_coupled_stable(felt, ArmImpedance(0.0, p.damping, m).impedance(w)), 0.01)
     text = f"rigidly at the grip, with {p.damping:g} N s/m; a hand has about {HAND:g} kg, mostly behind soft tissue"
-    yield Claim("hand mass limit", "", heavy, "kg", None, text, tried=LARGEST)
-    late = largest_stable(lambda T: is_coupled_stable(felt, leading_impedance(p, w, T)), 0.01, LATEST)
+    yield Claim("hand mass limit", "", heavy, "kg", None, text, tried=CEILING)
+    late = largest_stable(lambda T: is_coupled_stable(felt, leading_impedance(p, w, T)), 0.01, MAX_DELAY)
     text = f"of a person who leads the vehicle, with the other keys of [person]; theirs is {p.delay:g} s"
-    yield Claim("reaction delay limit", "", late, "s", p.delay, text, tried=LATEST)
+    yield Claim("reaction delay limit", "", late, "s", p.delay, text, tried=MAX_DELAY)
 
 
 def coupled_frequency(felt: FeltAdmittance, Z: NDArray[np.complexfloating]) -> float:

@@ -27,9 +27,9 @@ import numpy as np
 from tandemlift.core.errors import InputError, extra
 from tandemlift.core.types import Array
 
-EDGE = 1e-6  # below 1, of the modulus from which on an eigenvalue counts as one that stays
-SEEN = 1e-6  # relative, of a response in which a mode shows
-STRICT = (1e-7, 1e-6, 1e-5)  # of a strict inequality; the first at which the solver's numbers satisfy it
+EDGE_DISTANCE = 1e-6  # below 1, of the modulus from which on an eigenvalue counts as one that stays
+VISIBLE_RESPONSE = 1e-6  # relative, of a response in which a mode shows
+STRICT_MARGINS = (1e-7, 1e-6, 1e-5)  # of a strict inequality; the first at which the solver's numbers satisfy it
 DOUBLINGS = 60
 BISECTIONS = 8
 
@@ -124,7 +124,7 @@ def without_resting_modes(plant: Plant) -> Plant:
     """
     with extra("certify", "a sector bound"):
         from scipy.linalg import schur, solve_sylvester
-    T, Z, inside = schur(plant.A, output="real", sort=lambda re, im=0.0: math.hypot(re, im) < 1.0 - EDGE)
+    T, Z, inside = schur(plant.A, output="real", sort=lambda re, im=0.0: math.hypot(re, im) < 1.0 - EDGE_DISTANCE)
     if inside == len(T):
         return plant
     fast, slow = slice(0, inside), slice(inside, len(T))
@@ -133,7 +133,7 @@ def without_resting_modes(plant: Plant) -> Plant:
     shown = np.abs((C[:, fast] @ X + C[:, slow]) @ B[slow]).max(initial=0.0)
     kept = Plant(T[fast, fast], B[fast] - X @ B[slow], C[:, fast], plant.D)
     size = np.abs(kept.C @ gramian(kept.A, kept.B) @ kept.C.T).max() ** 0.5
-    if shown > SEEN * size or np.abs(np.linalg.eigvals(T[slow, slow])).max() > 1.0 + EDGE:
+    if shown > VISIBLE_RESPONSE * size or np.abs(np.linalg.eigvals(T[slow, slow])).max() > 1.0 + EDGE_DISTANCE:
         raise InputError(f"{len(T) - inside} modes of the hover do not decay: it is not asymptotically stable")
     return kept
 
@@ -219,7 +219,7 @@ def region_of(part: LoopPart, sectors: Sectors, start: Start | None = None) -> R
     Raises:
         InputError: cvxpy is not installed.
     """
-    slack = STRICT if start is not None else STRICT[:1]
+    slack = STRICT_MARGINS if start is not None else STRICT_MARGINS[:1]
     return next((found for one in slack if (found := _solution(part, sectors, start, one)) is not None), None)
 
 

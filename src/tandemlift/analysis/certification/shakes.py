@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.analysis.certification.claims import Claim
-from tandemlift.analysis.certification.flown import PAST, hover_as_flown
+from tandemlift.analysis.certification.flown import EXCESS, hover_as_flown
 from tandemlift.analysis.certification.parameters import with_keys
 from tandemlift.core.errors import CLOSE, FAILS, CheckResult, judged
 from tandemlift.core.phases import FAILURES
@@ -25,13 +25,13 @@ from tandemlift.simulation.fly import fly_many
 
 AXES = "xyz"
 FREQUENCIES = (0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.5, 8.0, 10.0)  # Hz
-SECONDS, RESTS = 8.0, 2.0
+SECONDS, REST = 8.0, 2.0
 BEYOND = {"touched", "out-of-reach", "landed-by-fault"}
 NEAR_END = 0.9  # of half the payload's length: where a hand holds an end
-PEAK, PUSHED = 3.0, 3.5  # N and kg of the check, as of the check `push`: all forces are in proportion to the mass
-LEAST, MOST, LEVELS = 0.25, 8.0, 33  # N: peaks that are tried, and how many
-WIDTH, POINTS, APART = 0.8, 4, 0.025  # σ of the Gaussians whose sum is a sine, in gaps; of a half wave; s, of a gap
-LOGGED, AT_ONCE = 0.02, 128  # s; flights in memory
+PEAK, MASS = 3.0, 3.5  # N and kg of the check, as of the check `push`: all forces are in proportion to the mass
+MIN_PEAK, MAX_PEAK, LEVELS = 0.25, 8.0, 33  # N: peaks that are tried, and how many
+WIDTH, POINTS, GAP = 0.8, 4, 0.025  # σ of the Gaussians whose sum is a sine, in gaps; of a half wave; s, of a gap
+INTERVAL, BATCH = 0.02, 128  # s; flights in memory
 
 
 class ShakenMotion(NamedTuple):
@@ -91,7 +91,7 @@ def hover_to_shake(mission: Mission) -> tuple[Mission, float]:
     (hover, at), own = hover_as_flown(mission), tables_of(mission)
     keys: dict[str, Any] = {name: own[name] for name in ("vehicle", "sensors", "ground")}
     keys["pushes"] = [{"force": [0.0] * 3, "time": at, "sigma": 1.0}]
-    return with_keys(hover, keys | {"mission.duration": at + SECONDS + RESTS, "mission.log_interval": LOGGED}), at
+    return with_keys(hover, keys | {"mission.duration": at + SECONDS + REST, "mission.log_interval": INTERVAL}), at
 
 
 def shaken(hover: Mission, at: float, hand: Shake) -> Mission:
@@ -100,7 +100,7 @@ def shaken(hover: Mission, at: float, hand: Shake) -> Mission:
     By Poisson's sum they are that sine with g = WIDTH √(2π) e^(−(ω σ)²/2), and no image of it has 1e-4 of its peak. It
     begins as suddenly as a sine does, within h: how a hand begins decides on how far the first waves move a vehicle.
     """
-    half = max(POINTS, math.ceil(0.5 / hand.frequency / APART))
+    half = max(POINTS, math.ceil(0.5 / hand.frequency / GAP))
     apart = 0.5 / hand.frequency / half
     gain = WIDTH * math.sqrt(2.0 * math.pi) * math.exp(-0.5 * (math.pi * WIDTH / half) ** 2)
     bell = hover.pushes[0].model_copy(update={"sigma": WIDTH * apart, "point": hand.point})
@@ -114,14 +114,14 @@ def shaken(hover: Mission, at: float, hand: Shake) -> Mission:
 def flown_shakes(mission: Mission, hands: Sequence[Shake]) -> Iterator[tuple[bool, ShakenMotion]]:
     """Whether a mission's vehicle answers each shake, and how far it deviates."""
     hover, at = hover_to_shake(mission)
-    for i in range(0, len(hands), AT_ONCE):
-        for flight in fly_many([shaken(hover, at, hand) for hand in hands[i : i + AT_ONCE]]):
+    for i in range(0, len(hands), BATCH):
+        for flight in fly_many([shaken(hover, at, hand) for hand in hands[i : i + BATCH]]):
             yield is_answered(flight, at), deviations(flight, at)
 
 
 def largest_shakes(mission: Mission, hands: Sequence[Shake]) -> list[float]:
     """The largest peak [N] that is answered of each hand, whatever its own; infinite beyond all that are tried."""
-    levels = np.geomspace(LEAST, MOST, LEVELS) * (mission.hover.mass / PUSHED)
+    levels = np.geomspace(MIN_PEAK, MAX_PEAK, LEVELS) * (mission.hover.mass / MASS)
     flown = flown_shakes(mission, [hand._replace(peak=peak) for hand in hands for peak in levels.tolist()])
     return [end_of_answers(levels, [next(flown)[0] for _ in levels]) for _ in hands]
 
@@ -138,7 +138,7 @@ def end_of_answers(peaks: Array, answered: Sequence[bool]) -> float:
 
 def shake_checks(mission: Mission) -> Iterator[CheckResult]:
     """Check the worst answers to shakes with the peak of a push that is not gentle; all but sinking advise a hand."""
-    hands = [hand._replace(peak=PEAK * mission.hover.mass / PUSHED) for hand in shaken_hands(mission)]
+    hands = [hand._replace(peak=PEAK * mission.hover.mass / MASS) for hand in shaken_hands(mission)]
     found = [(hand, off) for hand, (_, off) in zip(hands, flown_shakes(mission, hands), strict=True)]
     for i, (what, unit) in enumerate((("sinking", "m"), ("straying", "m"), ("turning", "deg"))):
         hand, off = max(found, key=lambda one: one[1][i])
@@ -151,13 +151,13 @@ def shake_checks(mission: Mission) -> Iterator[CheckResult]:
 
 def shake_claims(mission: Mission) -> tuple[list[Claim], dict[str, Any], dict[str, str]]:
     """(The least of the largest shakes along each axis, all of them by place and axis, missions just beyond)."""
-    hands, most, count = shaken_hands(mission), MOST * mission.hover.mass / PUSHED, len(FREQUENCIES)
+    hands, most, count = shaken_hands(mission), MAX_PEAK * mission.hover.mass / MASS, len(FREQUENCIES)
     peaks, claims, files = largest_shakes(mission, hands), list[Claim](), dict[str, str]()
     for axis, name in enumerate(AXES):
         peak, hand = min((one for one in zip(peaks, hands, strict=True) if one[1].axis == axis), key=lambda one: one[0])
         text, command = "all that were flown are answered", ""
         if peak < math.inf:
-            beyond = shaken(*hover_to_shake(mission), hand._replace(peak=PAST * peak))
+            beyond = shaken(*hover_to_shake(mission), hand._replace(peak=EXCESS * peak))
             files[f"limits/shake-{name}.toml"] = format_toml(tables_of(beyond))
             text, command = (
                 f"{hand.where}: beyond it, it sinks, strays or turns",

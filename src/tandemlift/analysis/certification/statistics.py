@@ -24,7 +24,7 @@ from tandemlift.analysis.studies.execution.random_flights import (
 from tandemlift.missions import Mission
 
 TITLE = "Statistics: failures among random flights"
-FLIGHTS, SHOWN = 300, 20  # flights; rows of failures that a sentence names
+FLIGHTS, SHOWN_ROWS = 300, 20  # flights; rows of failures that a sentence names
 
 
 def statistics_tier(mission: Mission, folder: Path, flights: int = FLIGHTS) -> Tier:
@@ -52,7 +52,7 @@ def statistics_tier(mission: Mission, folder: Path, flights: int = FLIGHTS) -> T
 def _claims(rows: list[RandomFlight], folder: Path) -> Iterator[Claim]:
     """The bound on the probability of a failure, and on that of each finding."""
     bad = [number for number, row in enumerate(rows) if row.failed]
-    some = ", ".join(map(str, bad[:SHOWN])) + (" …" if len(bad) > SHOWN else "")
+    some = ", ".join(map(str, bad[:SHOWN_ROWS])) + (" …" if len(bad) > SHOWN_ROWS else "")
     text = f"{len(bad)} of {len(rows)} flights failed{': rows ' + some if bad else ''}; confidence 95 %"
     words = ["run", "--from", str(folder), "--row", str(bad[0])] if bad else ["report", str(folder)]
     yield _bound("probability of a failure", "", len(bad), len(rows), text, shlex.join(["tandemlift", *words]))

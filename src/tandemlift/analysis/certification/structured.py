@@ -15,12 +15,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.analysis.certification.claims import Claim, Tier
-from tandemlift.analysis.certification.uncertain_loop import CLOSER, EVERY, DeviatingLoop, found_factor, proven_factor
+from tandemlift.analysis.certification.uncertain_loop import DETAIL, STRIDE, DeviatingLoop, found_factor, proven_factor
 from tandemlift.analysis.certification.uncertainty import (
     DEFAULT_BOX,
     INERTIAS,
-    LARGEST,
-    LONGEST,
+    MAX_DELAY,
+    MAX_SHARE,
     UNITS,
     Values,
     calm_model,
@@ -30,17 +30,17 @@ from tandemlift.analysis.certification.uncertainty import (
     parameters_of,
     uncertain_tables,
 )
-from tandemlift.analysis.linearization.loop_margins import LOWEST, ON_CIRCLE, POINTS, calm_mission, is_calm
+from tandemlift.analysis.linearization.loop_margins import LOW_END, ON_CIRCLE, POINTS, calm_mission, is_calm
 from tandemlift.core.errors import InputError
 from tandemlift.missions import HoverFacts, Mission, built_in, check, format_toml, load_mission, tables_of
 
 NAME, TITLE = "structured", "Structured: all parameters at once"
-FARTHEST = 4.0  # the largest deviation of a parameter alone, relative
+SPAN = 4.0  # the largest deviation of a parameter alone, relative
 ACCURACY = 0.01  # relative, of the factor at which the mission oscillates
-CONFIRMED = 1.1  # times a limit and by it, where the mission is linearized again
-NEARER = 0.85  # of the factor that is found: the search of the linearized mission begins there
-BEYOND = 1.1  # times the factor at which the model oscillates, of the mission that is flown
-FLOWN = 20.0  # s, of its hover
+CHECK_FACTOR = 1.1  # times a limit and by it, where the mission is linearized again
+START_RATIO = 0.85  # of the factor that is found: the search of the linearized mission begins there
+EXCESS = 1.1  # times the factor at which the model oscillates, of the mission that is flown
+HOVER_TIME = 20.0  # s, of its hover
 
 Growth = Callable[[Values], tuple[float, float]]
 """`growing` of a mission."""
@@ -94,7 +94,7 @@ def structured_tier(mission: Mission, box: Mapping[str, float] = DEFAULT_BOX) ->
     curves, files = {"frequency": w, "upper_bound": bounds, "widths": widths}, dict[str, str]()
     claims = [*factors_of(proven, Worst(factor, found, frequency), most)]
     if worst is not None:
-        beyond = within_steps({name: BEYOND * p for name, p in worst.values.items()}, step)
+        beyond = within_steps({name: EXCESS * p for name, p in worst.values.items()}, step)
         text, command = f"the mission linearized with {words(worst.values)} oscillates", ""
         try:
             files[f"{mission.mission.name}-worst.toml"] = worst_mission(mission, beyond, worst)
@@ -123,9 +123,9 @@ def worst_of(
         rate, frequency = growth(values)
         return Worst(factor if rate > ON_CIRCLE else math.inf, values, frequency or deviations.frequency(values))
 
-    low, worst = NEARER * factor, there(factor)
+    low, worst = START_RATIO * factor, there(factor)
     while math.isinf(worst.factor):
-        low, factor = factor, CONFIRMED * factor
+        low, factor = factor, CHECK_FACTOR * factor
         if factor > most:
             return None
         worst = there(factor)
@@ -158,7 +158,7 @@ def worst_mission(mission: Mission, values: Values, worst: Worst) -> str:
         InputError: such a mission is refused.
     """
     name, whole = mission.mission.name, tables_of(mission)
-    end = calm_mission(mission)[1] + FLOWN
+    end = calm_mission(mission)[1] + HOVER_TIME
     rest: dict[str, Any] = {"pushes": [], "requests": [], "changes": [], "person": {"model": "none"}}
     rest |= {key: {"model": "none"} for key in ("detection", "excitation")}
     rest |= {"phases": {**whole["phases"], "land_start": 2.0 * end}}
@@ -168,7 +168,7 @@ def worst_mission(mission: Mission, values: Values, worst: Worst) -> str:
     if name in built_in() and load_mission(name) == mission:
         keys = {"extends": name} | {key: value for key, value in keys.items() if value != whole.get(key)}
     return (
-        f"# {name} with parameters {BEYOND:g} times those at which its linear model begins to oscillate, at "
+        f"# {name} with parameters {EXCESS:g} times those at which its linear model begins to oscillate, at "
         f"{worst.frequency:.3g} rad/s.\n\n{format_toml(keys)}"
     )
 
@@ -188,8 +188,8 @@ def factors_of(proven: float, found: Worst, most: float) -> Iterator[Claim]:
 def alone(growth: Growth, deviations: DeviatingLoop, name: str) -> Claim:
     """The nearest deviation of one parameter at which the loop oscillates, as the mission linearized there confirms."""
     unit, width = UNITS[name], deviations.widths[name]
-    ends = {1.0: (LONGEST if name == "delay" else FARTHEST) / width}
-    ends |= {} if name in ("lag", "delay") else {-1.0: LARGEST / width}
+    ends = {1.0: (MAX_DELAY if name == "delay" else SPAN) / width}
+    ends |= {} if name in ("lag", "delay") else {-1.0: MAX_SHARE / width}
     factors = {sign: deviations.limit({name: sign}, end) for sign, end in ends.items()}
     sign = min(factors, key=lambda sign: factors[sign])
     if math.isinf(factors[sign]):
@@ -198,7 +198,7 @@ def alone(growth: Growth, deviations: DeviatingLoop, name: str) -> Claim:
     values = deviations.along({name: sign}, factors[sign])
     frequency = deviations.frequency(values)
     text = f"with {words(values)} alone, the model oscillates at {frequency:.3g} rad/s"
-    sides = [growth({name: side * values[name]})[0] > ON_CIRCLE for side in (1.0 / CONFIRMED, CONFIRMED)]
+    sides = [growth({name: side * values[name]})[0] > ON_CIRCLE for side in (1.0 / CHECK_FACTOR, CHECK_FACTOR)]
     if sides == [False, True]:
         return Claim("limit alone", name, values[name], unit, None, text, frequency)
     return Claim("limit alone", name, None, unit, None, f"{text}; the mission linearized about there does not agree")
@@ -220,8 +220,8 @@ def assumptions(hover: HoverFacts, box: Mapping[str, float], widths: Mapping[str
         f"Parameters are real and constant, in a box about the mission: {words(box).replace('+', '±')}; a delay only "
         "grows, and the lag is the mean of up and down.",
         "The pilot keeps its own model of the vehicle, except for what it identifies in flight.",
-        f"The bound holds at some {POINTS // EVERY} frequencies from {LOWEST:g} rad/s to half of the sample rate, a "
-        f"quarter with slower sensors, and {CLOSER} about each peak; it is not proven between them and below.",
+        f"The bound holds at some {POINTS // STRIDE} frequencies from {LOW_END:g} rad/s to half of the sample rate, a "
+        f"quarter with slower sensors, and {DETAIL} about each peak; it is not proven between them and below.",
     ]
     if {"mass", "thrust"} & set(widths):
         said.append(

@@ -25,7 +25,7 @@ from tandemlift.core.types import Array
 Complex: TypeAlias = NDArray[np.complexfloating]
 SMOOTHING = (0.01, 0.004)  # s over the largest eigenvalue, one after the other
 OPTIONS = {"maxiter": 100, "maxcor": 50}  # of L-BFGS, of each smoothing
-TINY = 1e-12
+EPSILON = 1e-12
 
 
 class DeltaBlock(NamedTuple):
@@ -64,7 +64,7 @@ def upper_bound(M: Complex, blocks: Sequence[DeltaBlock], start: Bound | None = 
     tried = [_bounded(M, T, G) for G in (np.zeros_like(M), alone + alone.conj().T)]
     best = _least(*tried, *([] if start is None else [_bounded(M, start.T, start.G)]))
     for s in SMOOTHING:
-        if best.value < max(enough, TINY):
+        if best.value < max(enough, EPSILON):
             break
         N = best.T @ M @ np.linalg.inv(best.T) / best.value  # the search begins anew at T = I: it stays well scaled
         x = _numbers(np.eye(len(M))[of_T], (best.G / best.value)[of_G])
@@ -76,7 +76,7 @@ def upper_bound(M: Complex, blocks: Sequence[DeltaBlock], start: Bound | None = 
 
 def _bounded(M: Complex, T: Complex, G: Complex) -> Bound:
     """The bound that scalings prove."""
-    if np.linalg.cond(T) > 1.0 / TINY:
+    if np.linalg.cond(T) > 1.0 / EPSILON:
         return Bound(np.inf, T, G)
     N = T @ M @ np.linalg.inv(T)
     return Bound(float(np.sqrt(max(np.linalg.eigvalsh(_form(N, G))[-1], 0.0))), T, G)

@@ -1,14 +1,24 @@
 """The loop of an uncertain vehicle as M and Δ, det(I − M Δ) = 0 where it oscillates, and the factors of its box.
 
-Each parameter p lies within a range and enters as p = middle + half δ, |δ| ≤ 1, δ real:
+A parameter lies within a range and is p = p₀ + h δ with a real |δ| ≤ 1. What it multiplies is a signal y of the loop,
+and z = δ y comes back into it: p y = p₀ y + h z. At a frequency ω all signals x are sums of each other and of these z:
 
-- a rotor's own gain adds the thrust p T of that rotor;
-- an inertia adds the moment −p J ω̇ about its axis;
-- the rotors' lags are τᵢ (1 + p), rotors of one lag with one signal;
-- their delay is longer by p: e^(−jωp) = (1 − jt)/(1 + jt), with a real t = tan(ωp/2);
-- all rotors' thrust is 1 + p times what is commanded;
-- mass and thrust also change the hover, by `Trim`. Both together add in the open loop, where the thrust scales what the
-  mass has changed.
+    x = P x + B z,  y = C x   ⟹   y = M z  with  M = C (I − P)⁻¹ B,  and  z = Δ y  with  Δ = diag(δ₁ I, δ₂ I, …):
+
+the loop has a motion at ω where det(I − M Δ) = 0. The signals, with `Family`'s H of ideal rotors from what they add to
+the commanded wrench c (w together, oᵢ each alone) and from a moment m to c and a = J ω̇:
+
+    (c, a) = H (w, o, m) + Σ Uₖ hₖ                     hover, changed by mass and thrust (`Trim` k)
+    hₖ = pₖ (Wₖ (w, o, m) + Vₖ hₖ + Wₖ (H + D)⁻¹ Uₗ hₗ)    D = diag(I, 0): the open loop, to which the trims l ≠ k add
+    m = −Σ pᵢ eᵢ eᵢᵀ a                                 inertias: a moment −p J ω̇ about each axis
+    ℓ = (1 + p) c                                      thrust of all rotors
+    r = e^(−jωp) ℓ                                     a longer delay
+    (1 + jωτ (1 + p)) sᵢ = r,  gᵢ = e^(−jωT) sᵢ           lags τ of the rotors, and their own delay T
+    oᵢ = pᵢ Sᵢ gᵢ,  w = Σ Eᵢ gᵢ − c                       a rotor's own gain; `Family`'s spread S and share E
+
+To the thrust's hₖ comes pₖ U⁺ Uₗ hₗ, as it scales what the mass has changed. A lag has the signal y = s, and then
+s = (r − jωτ h z)/(1 + jωτ (1 + p₀)). A delay multiplies nothing, but e^(−jωhδ) = (1 − jtδ′)/(1 + jtδ′), t = tan(ωh/2),
+tδ′ = tan(ωhδ/2), so that δ′ is real and |δ′| ≤ 1: y = ℓ − jt z and r = e^(−jωp₀) (ℓ − 2jt z).
 """
 
 from __future__ import annotations
@@ -19,10 +29,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.certification.structured_singular_value import TINY, Bound, Complex, DeltaBlock, upper_bound
+from tandemlift.analysis.certification.structured_singular_value import EPSILON, Bound, Complex, DeltaBlock, upper_bound
 from tandemlift.analysis.certification.uncertainty import (
     INERTIAS,
-    RANK,
+    RANK_TOLERANCE,
     Family,
     Hovers,
     Span,
@@ -36,14 +46,14 @@ from tandemlift.core.errors import extra
 from tandemlift.core.types import Array
 
 ACCURACY = 2e-4  # of a limit
-FINER = 2000  # frequencies at which a smooth determinant is interpolated
-EVERY = 4  # of the frequencies of a loop, at which µ is bounded
-HIGH, CLOSER = 0.8, 17  # of the largest bound: a peak, with so many frequencies about it
-ABOUT = 0.03  # of the frequency that is known
-SMALLER = 0.99  # of a factor that is not proven
+GRID = 2000  # frequencies at which a smooth determinant is interpolated
+STRIDE = 4  # of the frequencies of a loop, at which µ is bounded
+PEAK_RATIO, DETAIL = 0.8, 17  # of the largest bound: a peak, with so many frequencies about it
+BAND = 0.03  # of the frequency that is known
+SHRINKAGE = 0.99  # of a factor that is not proven
 STARTS, SEED = 6, 1  # of the search
-BETTER = 0.999  # of a factor, which is worth a change
-TURNED = 0.75 * math.pi  # less than a real pole turns the determinant by, or half of what a pair turns it by
+GAIN_RATIO = 0.999  # of a factor, which is worth a change
+TURN = 0.75 * math.pi  # less than a real pole turns the determinant by, or half of what a pair turns it by
 
 
 class Network:
@@ -118,7 +128,7 @@ def uncertain_loop(family: Family, box: Mapping[str, Span], *, late: bool = True
         for other in [other for other in trims if other != name]:
             felt[f"{other}_hover"] = W[:, :, square] @ opened @ trims[other].U  # around the loop
             if name == "thrust":  # it scales what the mass has changed
-                felt[f"{other}_hover"] += np.linalg.pinv(U, rcond=RANK) @ trims[other].U
+                felt[f"{other}_hover"] += np.linalg.pinv(U, rcond=RANK_TOLERANCE) @ trims[other].U
         uncertain(name, "hover", W.shape[1], felt)
     axes = {name: np.eye(3)[None, i : i + 1] for i, name in enumerate(INERTIAS) if name in box}
     slower = {uncertain(name, "axis", 1, {"turning": axis}): -axis.transpose(0, 2, 1) for name, axis in axes.items()}
@@ -164,7 +174,7 @@ class DeviatingLoop:
 
     def __init__(self, family: Family, widths: Mapping[str, float]) -> None:
         self.w, self.widths = family.w, widths
-        self.finer = np.geomspace(self.w[0], self.w[-1], FINER)
+        self.finer = np.geomspace(self.w[0], self.w[-1], GRID)
         self.loop = uncertain_loop(family, {name: Span(0.0, width) for name, width in widths.items()}, late=False)
 
     def determinant(self, values: Values) -> Complex:
@@ -182,7 +192,7 @@ class DeviatingLoop:
     def stable(self, values: Values) -> bool:
         """Whether the loop is stable."""
         turned = np.unwrap(np.angle(self.determinant(values)))
-        return bool(abs(turned[-1] - turned[0]) < TURNED)
+        return bool(abs(turned[-1] - turned[0]) < TURN)
 
     def along(self, signs: Values, factor: float) -> dict[str, float]:
         """The deviations at a factor of the box, along a direction."""
@@ -213,13 +223,13 @@ def proven_factor(hovers: Hovers, deviations: DeviatingLoop, near: float) -> tup
         deviations: of its vehicle.
         near: a frequency at which the loop is known to oscillate first [rad/s]; NaN if none is.
     """
-    widths, w = deviations.widths, np.append(hovers.w[:-1:EVERY], hovers.w[-1])
+    widths, w = deviations.widths, np.append(hovers.w[:-1:STRIDE], hovers.w[-1])
     bounds = bounds_of(family_at(hovers, w), widths)
     values = np.array([0.0, *[bound.value for bound in bounds], 0.0])
-    high = values[1:-1] > HIGH * values.max()
+    high = values[1:-1] > PEAK_RATIO * values.max()
     peaks = np.flatnonzero(high & (values[1:-1] >= values[:-2]) & (values[1:-1] >= values[2:]))
-    between = [np.geomspace(w[max(k - 1, 0)], w[min(k + 1, len(w) - 1)], CLOSER)[1:-1] for k in map(int, peaks)]
-    critical = np.geomspace((1.0 - ABOUT) * near, (1.0 + ABOUT) * near, CLOSER) if near < w[-1] else w[-1:]
+    between = [np.geomspace(w[max(k - 1, 0)], w[min(k + 1, len(w) - 1)], DETAIL)[1:-1] for k in map(int, peaks)]
+    critical = np.geomspace((1.0 - BAND) * near, (1.0 + BAND) * near, DETAIL) if near < w[-1] else w[-1:]
     w = np.unique(np.clip(np.concatenate([w, *between, critical]), w[0], w[-1]))
     family = family_at(hovers, w)
     bounds = bounds_of(family, widths)
@@ -232,9 +242,9 @@ def proven_factor(hovers: Hovers, deviations: DeviatingLoop, near: float) -> tup
             upper_bound(loop.M[k], loop.blocks, bounds[k], enough=1.0).value <= 1.0 for k in order
         )
 
-    factor = min(1.0 / max(bounds[order[0]].value, TINY), largest_factor(widths))
+    factor = min(1.0 / max(bounds[order[0]].value, EPSILON), largest_factor(widths))
     while not proves(factor):
-        factor *= SMALLER
+        factor *= SHRINKAGE
     return factor, w, np.array([bound.value for bound in bounds])
 
 
@@ -262,11 +272,11 @@ def found_factor(deviations: DeviatingLoop, most: float) -> tuple[float, Values]
             for name, sign in [(str(n), sign) for n in rng.permutation(list(choices)) for sign in choices[str(n)]]:
                 other = {**signs, name: sign}
                 smaller = deviations.limit(other, min(factor, best)) if other != signs else math.inf
-                if smaller < BETTER * factor:
+                if smaller < GAIN_RATIO * factor:
                     signs, factor, improved = other, smaller, True
         if factor < min(best, most):
             best, found = factor, signs
     for name in found:
-        if not deviations.stable(deviations.along({**found, name: 0.0}, best / BETTER)):
+        if not deviations.stable(deviations.along({**found, name: 0.0}, best / GAIN_RATIO)):
             found[name] = 0.0
     return best, found

@@ -18,10 +18,10 @@ from tandemlift.analysis.linearization.frequency_response import frequency_respo
 from tandemlift.analysis.linearization.linear_model import LinearModel
 from tandemlift.analysis.linearization.linearize import linearize
 from tandemlift.analysis.linearization.loop_margins import (
-    LOWEST,
+    DELAYS,
+    LOW_END,
     NO_KINK,
     POINTS,
-    WAITS,
     calm_mission,
     is_calm,
     rotor_delay_and_lag,
@@ -42,11 +42,11 @@ DEFAULT_BOX: Mapping[str, float] = {
     "rotors": 0.02,
 }
 """Half widths: relative, the delay's in s, by which it is longer; "rotors": of each rotor's own gain."""
-MOST = 10  # parameters beside the rotors
-LARGEST = 0.9  # relative, that a parameter deviates
-LONGEST = 0.2  # s, of the delay
-RANK = 1e-3  # of the largest singular value at any frequency
-SLOWER = 0.5  # of half the sample rate, where sensors are slower than the steps in which rotors act
+LIMIT = 10  # parameters beside the rotors
+MAX_SHARE = 0.9  # relative, that a parameter deviates
+MAX_DELAY = 0.2  # s, of the delay
+RANK_TOLERANCE = 1e-3  # of the largest singular value at any frequency
+SENSOR_BAND = 0.5  # of half the sample rate, where sensors are slower than the steps in which rotors act
 SECONDS, GROWTH = 90.0, 1.5  # s of a tier with the most parameters; its growth with each further one
 
 Values = Mapping[str, float]
@@ -70,15 +70,15 @@ def parameters_of(hover: HoverFacts, box: Mapping[str, float]) -> dict[str, floa
     for name, width in box.items():
         if name not in {*UNITS, *rotors, "rotors"}:
             raise unknown("uncertain parameter", name, [*UNITS, "rotors", *rotors])
-        most = LONGEST if name == "delay" else LARGEST
+        most = MAX_DELAY if name == "delay" else MAX_SHARE
         if not 0.0 < width < most:
             raise InputError(f"uncertain parameter {name} = {width:g}: its half width must be in (0, {most:g})")
     named = [name for name in box if name != "rotors"]
-    if len(named) > MOST:
-        minutes = SECONDS * GROWTH ** (len(named) - MOST) / 60.0
+    if len(named) > LIMIT:
+        minutes = SECONDS * GROWTH ** (len(named) - LIMIT) / 60.0
         raise InputError(
-            f"{len(named)} uncertain parameters: must be at most {MOST} beside rotors, or the search for the worst "
-            f"takes some {minutes:.2g} min; leave out {', '.join(named[MOST:])}"
+            f"{len(named)} uncertain parameters: must be at most {LIMIT} beside rotors, or the search for the worst "
+            f"takes some {minutes:.2g} min; leave out {', '.join(named[LIMIT:])}"
         )
     without = set() if hover.lag else {"lag"}
     if hover.actuators.model != "rotors":
@@ -97,7 +97,7 @@ def box_at(widths: Mapping[str, float], factor: float) -> dict[str, Span]:
 
 def largest_factor(widths: Mapping[str, float]) -> float:
     """The factor at which a parameter of a box reaches its largest deviation."""
-    return min((LONGEST if name == "delay" else LARGEST) / width for name, width in widths.items())
+    return min((MAX_DELAY if name == "delay" else MAX_SHARE) / width for name, width in widths.items())
 
 
 def uncertain_tables(tables: Mapping[str, Any], values: Values) -> dict[str, Any]:
@@ -145,11 +145,11 @@ def calm_model(mission: Mission, values: Values, *, real: bool) -> LinearModel:
     real = real and mission.actuators.model == "rotors"
     slow = 1.0 + values.get("lag", 0.0) if real else None
     off = {**values, "lag": 0.0, "delay": values.get("delay", 0.0) if real else 0.0}
-    for wait in WAITS:
+    for wait in DELAYS:
         calm, at = calm_mission(mission, slow=slow, wait=wait)
         calm = check(uncertain_tables(tables_of(calm), off), mission.mission.name, quiet=True)
-        ports: Any = {"inputs": ["thrust_offsets", "disturbance_moment"], "outputs": ["rotor_thrusts", "rates"]}
-        model = linearize(calm, at, **ports, kink_tolerance=NO_KINK)
+        inputs, outputs = ["thrust_offsets", "disturbance_moment"], ["rotor_thrusts", "rates"]
+        model = linearize(calm, at, inputs=inputs, outputs=outputs, kink_tolerance=NO_KINK)
         if is_calm(model):
             break
     return model
@@ -208,8 +208,8 @@ class Hovers(NamedTuple):
     @property
     def w(self) -> Array:
         """Frequencies of its loop [rad/s]."""
-        share = 1.0 if self.model.step == self.step else SLOWER
-        return np.geomspace(LOWEST, share * math.pi / self.model.step, POINTS)
+        share = 1.0 if self.model.step == self.step else SENSOR_BAND
+        return np.geomspace(LOW_END, share * math.pi / self.model.step, POINTS)
 
 
 def hovers_of(mission: Mission, widths: Mapping[str, float]) -> Hovers:
@@ -275,7 +275,7 @@ def rational(off_low: Complex, off_high: Complex, low: float, high: float) -> Tr
     """U p (I − V p)⁻¹ W, equal to matrices (F, a, b) at p = low and p = high, of the least rank."""
     columns, sizes, _ = np.linalg.svd(np.concatenate([off_low, off_high], axis=2))
     _, _, rows = np.linalg.svd(np.concatenate([off_low, off_high], axis=1))
-    ranks = (sizes > RANK * sizes.max()).sum(axis=1)
+    ranks = (sizes > RANK_TOLERANCE * sizes.max()).sum(axis=1)
     R = int(ranks.max())
     U, W, V = columns[:, :, :R].astype(complex), rows[:, :R].astype(complex), np.zeros((len(ranks), R, R), complex)
     for k, r in enumerate(ranks):

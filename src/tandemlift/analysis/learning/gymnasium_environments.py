@@ -22,7 +22,7 @@ with extra("gymnasium", "an environment for learning"):
     from gymnasium.vector.utils import batch_space
 
 Observations = NDArray[np.float32]
-SHARED = "person.delay"  # of all flights of a block: not drawn
+SHARED_KEY = "person.delay"  # of all flights of a block: not drawn
 SEEDS = 2**31
 
 
@@ -93,7 +93,7 @@ class FlightVectorEnv(VectorEnv[Observations, Array, NDArray[Any]]):
             raise InputError(f"persons = 'random': must be left out, because task {task} has no person")
         self._drawn = drawn_keys({"draw": {**self.task.drawn, **(draw or {})}})
         if persons:
-            self._drawn |= {key: value for key, value in random_person().items() if key != SHARED}
+            self._drawn |= {key: value for key, value in random_person().items() if key != SHARED_KEY}
         self.block = Block(mission, num_envs, threads, actions=self._level.taken, begin=begin)
         self._seen = [f"estimated_{name}" if f"estimated_{name}" in self.block else name for name in self.task.seen]
         self._goals, self._start = np.zeros((num_envs, 3)), self.block.state[:, :3]

@@ -16,7 +16,7 @@ from tandemlift.core.types import GRAVITY, Array
 from tandemlift.missions import Mission
 
 Level = Literal["push", "velocity", "admittance", "wrench", "thrusts"]
-LIFTED: dict[str, Any] = {
+LIFTED_START: dict[str, Any] = {
     "pushes": [],
     "phases.lift_start": 0.5,
     "phases.lift_duration": 3.0,
@@ -24,7 +24,7 @@ LIFTED: dict[str, Any] = {
     "estimator.tare_start": 4.0,
     "estimator.tare_duration": 1.0,
 }
-STRONG = 5.0  # N: a person's force that outweighs flying
+MAX_HAND_FORCE = 5.0  # N: a person's force that outweighs flying
 TURN = ((5.0, 0.0), (10.0, 3.0), (15.0, 0.0), (20.0, 3.0), (25.0, 3.0))  # m: the corridor of `zigzag`
 
 
@@ -65,7 +65,7 @@ def nearness(block: Block, goal: Array) -> Array:
 
 def ease(block: Block, goal: Array) -> Array:
     """Time in flight [s], less the person's force over time, a second for 5 N s (`human_force_mean_n`)."""
-    eased: Array = (block.sums("steps") - block.sums("effort.force_sum") / STRONG)[:, 0] * block.dt
+    eased: Array = (block.sums("steps") - block.sums("effort.force_sum") / MAX_HAND_FORCE)[:, 0] * block.dt
     return eased
 
 
@@ -88,24 +88,24 @@ def way(block: Block, goal: Array) -> Array:
     return done - 0.1 * block.dt * block.sums("power_sum")[:, 0]
 
 
-FLOWN = ("velocity", "attitude", "rates")
+FLOWN_CHANNELS = ("velocity", "attitude", "rates")
 TASKS = {
     "Transport": LearningTask(
         "Carry the load to a goal, and keep it there.",
         "iris",
-        LIFTED,
+        LIFTED_START,
         begin=5.0,
         duration=15.0,
         level="velocity",
         rewarded=nearness,
-        seen=("position", *FLOWN),
+        seen=("position", *FLOWN_CHANNELS),
         goal=(3.0, 3.0, 0.5),
     ),
     "FollowHand": LearningTask(
         "Follow the hand of a person who leads the load along a path, so that it has to push least.",
         "iris",
         {
-            **LIFTED,
+            **LIFTED_START,
             "person.model": "steer",
             "person.start_time": 5.0,
             "person.path": [{"point": p} for p in ([4.0, 0.0], [4.0, 3.0], [8.0, 3.0])],
@@ -114,37 +114,37 @@ TASKS = {
         duration=30.0,
         level="velocity",
         rewarded=ease,
-        seen=(*FLOWN, "push_estimate", "admittance_velocity"),
+        seen=(*FLOWN_CHANNELS, "push_estimate", "admittance_velocity"),
     ),
     "Corridor": LearningTask(
         "Lead the load through a winding corridor, by pushing it, and touch no wall.",
         "zigzag",
-        {**LIFTED, "person.model": "none"},
+        {**LIFTED_START, "person.model": "none"},
         begin=5.0,
         duration=60.0,
         level="push",
         rewarded=way,
-        seen=("position", *FLOWN),
+        seen=("position", *FLOWN_CHANNELS),
     ),
     "Gusts": LearningTask(
         "Hold the load where it is in wind and gusts.",
         "gusts",
-        {**LIFTED, "wind.gusts.0.start": 7.0, "wind.gusts.1.start": 15.0},
+        {**LIFTED_START, "wind.gusts.0.start": 7.0, "wind.gusts.1.start": 15.0},
         begin=5.0,
         duration=20.0,
         level="wrench",
         rewarded=accuracy,
-        seen=("position", "reference_position", *FLOWN),
+        seen=("position", "reference_position", *FLOWN_CHANNELS),
     ),
     "RotorLoss": LearningTask(
         "Stay in the air where a rotor is lost.",
         "rotor-loss",
-        {**LIFTED, "faults.0.time": 6.0, "detection.model": "none"},
+        {**LIFTED_START, "faults.0.time": 6.0, "detection.model": "none"},
         begin=5.0,
         duration=10.0,
         level="thrusts",
         rewarded=accuracy,
-        seen=("position", "reference_position", *FLOWN),
+        seen=("position", "reference_position", *FLOWN_CHANNELS),
         drawn={"faults.0.rotor": {"distribution": "integer", "low": 1, "high": 4}},
     ),
 }

@@ -17,16 +17,16 @@ from tandemlift.compiler.machine_code.derivatives import OPERATIONS, PARTIALS, s
 from tandemlift.compiler.tracer import LEAVES, Graph
 from tandemlift.core.types import Array
 
-ROUNDED = 1e-9  # relative, of values that are equal
+TIE_TOLERANCE = 1e-9  # relative, of values that are equal
 CURVED = 100.0  # excess of a value's change on a short distance over that of its derivative
-LARGEST = 1e150  # of a factor whose product is split exactly
+MAX_FACTOR = 1e150  # of a factor whose product is split exactly
 
 
 def once_rounded(a: float, b: float, c: float) -> float:
     """a b + c as machine code rounds it: once, by exact products and sums of halves (Dekker, Numer. Math. 18, 1971)."""
     p = a * b
     s = p + c
-    if not (abs(a) < LARGEST and abs(b) < LARGEST and math.isfinite(s)):
+    if not (abs(a) < MAX_FACTOR and abs(b) < MAX_FACTOR and math.isfinite(s)):
         return s
     u, v = 134217729.0 * a, 134217729.0 * b
     a1, b1 = u - (u - a), v - (v - b)
@@ -84,7 +84,7 @@ def meet(x: Sequence[float], d: Sequence[Row], distance: float) -> bool:
     if x[0] == x[1]:
         return True
     steepest = max([1.0, *[np.abs(row).max() for row in d if row is not None]])
-    return bool(abs(x[0] - x[1]) <= ROUNDED * abs(x[0]) + CURVED * distance * steepest)
+    return bool(abs(x[0] - x[1]) <= TIE_TOLERANCE * abs(x[0]) + CURVED * distance * steepest)
 
 
 class Derivative:

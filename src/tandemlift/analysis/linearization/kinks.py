@@ -16,10 +16,10 @@ from tandemlift.core.types import Array
 
 PACKAGE = Path(__file__).parents[2]
 SAME = 1e-9  # relative, of directions; and of the entries of two models to their largest
-SMALL = 1e-3  # relative change of an entry that is no kink
-MOST = 100  # edges that are examined
+KINK_TOLERANCE = 1e-3  # relative change of an entry that is no kink
+MAX_EDGES = 100  # edges that are examined
 UPWARD = ("ogt", "oge")
-EQUAL = ("oeq", "une")
+EQUALITIES = ("oeq", "une")
 
 
 class Kink(NamedTuple):
@@ -65,12 +65,12 @@ def kinks_near(r: LinearizationPlan, made: PeriodDerivative, tolerance: float) -
             edges.setdefault(frozenset(edge.nodes), edge)
     nearest = sorted(edges.values(), key=lambda edge: (edge.normal is None, edge.distance))
     by_law = dict[tuple[str, str], list[float]]()
-    for edge in nearest[:MOST]:
+    for edge in nearest[:MAX_EDGES]:
         if is_kink(r, edge, made.steps[edge.step]):
             by_law.setdefault(law_name(r.graph.graph.laws[min(edge.nodes)]), []).append(edge.distance)
     found = [kink_of(*law, distances) for law, distances in by_law.items()]
-    if len(nearest) > MOST:
-        found.append(Kink("", "", 0.0, f"{len(nearest) - MOST} further edges were not examined"))
+    if len(nearest) > MAX_EDGES:
+        found.append(Kink("", "", 0.0, f"{len(nearest) - MAX_EDGES} further edges were not examined"))
     margins = sorted([one for d in made.steps for one in near_margins(d, tolerance)], key=lambda one: -one[1])
     return found + ([solver_kink(dict(margins))] if margins else [])
 
@@ -109,7 +109,7 @@ def compared(r: LinearizationPlan, d: StepDerivative) -> Iterator[tuple[int, flo
             row, value = rows[a], values[a]
         else:
             row, value = difference(rows[a], rows[b]), values[a] - values[b]
-        if row is not None and np.isfinite(value) and np.isfinite(row).all() and not op.endswith(EQUAL):
+        if row is not None and np.isfinite(value) and np.isfinite(row).all() and not op.endswith(EQUALITIES):
             yield node, value, row, op == "fabs" or op.endswith(UPWARD)
 
 
@@ -150,7 +150,7 @@ def is_kink(r: LinearizationPlan, edge: Edge, d: StepDerivative) -> bool:
     (a, c), (b, e) = [(made.rows_of(nodes, size), made.values_of(nodes)) for made in (on(one), on(other))]
     steepest = 1.0 + np.abs(a).max(axis=1)
     return not (
-        alike(a, b, SMALL * (np.abs(a) + np.abs(b)) + SAME * steepest[:, None])
+        alike(a, b, KINK_TOLERANCE * (np.abs(a) + np.abs(b)) + SAME * steepest[:, None])
         and alike(c, e, SAME * (1.0 + np.abs(c)) + CURVED * edge.distance * steepest)
     )
 

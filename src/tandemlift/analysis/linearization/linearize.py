@@ -37,7 +37,7 @@ LOOP_OUTPUTS = (
 )
 BODY_OUTPUTS = ("position", "velocity", "attitude", "euler", "rates", "joint_force", "joint_torque")
 BODY_CHANNELS = (*BODY_OUTPUTS, "push_force", "push_moment", "rotor_thrusts", "wind_velocity", "wind_force")
-LONGEST = 200  # steps of a period
+MAX_PERIOD = 200  # steps of a period
 KINK_TOLERANCE = 1e-4  # such as 0.1 mm, 0.1 mrad, 0.1 mN
 
 
@@ -149,14 +149,14 @@ def sensor_period(sensors: Any) -> int:
 
 def _steps(period: int, steps: int | None) -> int:
     if steps is None:
-        if period > LONGEST:
+        if period > MAX_PERIOD:
             raise InputError(
-                f"the sensors have a common period of {period} steps, more than {LONGEST}: choose steps, such as "
+                f"the sensors have a common period of {period} steps, more than {MAX_PERIOD}: choose steps, such as "
                 "steps=1 for the next step alone"
             )
         return period
-    if not isinstance(steps, int) or not 1 <= steps <= LONGEST:
-        raise InputError(f"steps = {shown(steps)}: must be a whole number from 1 to {LONGEST}")
+    if not isinstance(steps, int) or not 1 <= steps <= MAX_PERIOD:
+        raise InputError(f"steps = {shown(steps)}: must be a whole number from 1 to {MAX_PERIOD}")
     return steps
 
 

@@ -25,19 +25,19 @@ from tandemlift.core.types import Array
 from tandemlift.missions import RESTLESS, HoverFacts, Mission, check, tables_of
 
 AXES = ("z", "roll", "pitch", "yaw")
-LOWEST, HIGHEST, POINTS = 0.1, 3000.0, 240  # rad/s
+LOW_END, HIGH_END, POINTS = 0.1, 3000.0, 240  # rad/s
 LIFT, SETTLED = 4.0, 2.0  # s, of the calm flight's lift, and after it and after the tare
-WAITS = (0.0, 20.0)  # s, in addition, for a vehicle that settles slowly
+DELAYS = (0.0, 20.0)  # s, in addition, for a vehicle that settles slowly
 REMOVED = (
     *("pushes", "requests", "changes", "faults", "sensor_faults", "walls"),
     *("corridor", *RESTLESS),
 )
 NO_KINK = -1.0  # a distance: disables the search for kinks
 ON_CIRCLE = 1e-6  # beyond 1, of an eigenvalue that does not grow
-FASTER = 10.0  # times the largest speed of the rotors, so that no thrust is limited
+SPEED_FACTOR = 10.0  # times the largest speed of the rotors, so that no thrust is limited
 RESTING = 0.02  # m/s and rad/s, of a calm hover
-FIRST, MOST = 1e-4, 100.0  # s, the shortest and the longest delay and lag that are tried
-RELATIVE = 1e-4  # accuracy of the results
+MIN_LAG, MAX_LAG = 1e-4, 100.0  # s, the shortest and the longest delay and lag that are tried
+TOLERANCE = 1e-4  # accuracy of the results
 UNROUNDED = {"joints": {"force_resolution": 0.0, "torque_resolution": 0.0}}  # changes of a table of sensors
 FINER = 10  # frequencies for each at which a response is computed
 
@@ -114,7 +114,7 @@ def calm_mission(mission: Mission, *, slow: float | None = None, wait: float = 0
     t["actuators"] |= {"model": "rotors", "delay": 0.0 if slow is None else rotor_delay_and_lag(mission.hover)[0]}
     slow = slow if slow and mission.actuators.model == "rotors" else 0.0
     for q, lag in zip(t["vehicle"]["quadrotors"], mission.hover.lags, strict=True):
-        q |= {"lag_up": slow * lag, "lag_down": slow * lag, "max_speed": FASTER * q["max_speed"]}
+        q |= {"lag_up": slow * lag, "lag_down": slow * lag, "max_speed": SPEED_FACTOR * q["max_speed"]}
     t["sensors"] |= {"errors": "none", "additional": []}
     height = max(mission.phases.height, 0.5) if floor else mission.phases.height
     t["phases"] |= {"lift_start": 1.0, "lift_duration": LIFT, "height": height}
@@ -140,7 +140,7 @@ def open_loop(mission: Mission) -> OpenLoop:
             f'estimator.wrench = "{mission.estimator.wrench}": its loops are not cut at rotors without lag and delay, '
             "which the observer models; fly the mission with other ones, as in a study"
         )
-    for wait in WAITS:
+    for wait in DELAYS:
         calm, at = calm_mission(mission, wait=wait)
         model = linearize(calm, at, inputs=["thrust_offsets"], outputs=["rotor_thrusts"], kink_tolerance=NO_KINK)
         if is_calm(model):
@@ -150,7 +150,7 @@ def open_loop(mission: Mission) -> OpenLoop:
     A, E = rotors.allocation, rotors.effect
     in_axes = replace(few, B=few.B @ A, C=E @ few.C, D=E @ few.D @ A)
     # short of the Nyquist frequency, beyond which samples tell nothing of what happens between them
-    w = np.geomspace(LOWEST, min(HIGHEST, 0.9 * math.pi / model.step), POINTS)
+    w = np.geomspace(LOW_END, min(HIGH_END, 0.9 * math.pi / model.step), POINTS)
     held, eye = step_over_sample(w, calm.mission.step, model.step), np.eye(4)
     near = frequency_response(in_axes, w / (2.0 * math.pi)) - eye
     S: NDArray[np.complexfloating] = np.asarray(eye + near * held[:, None, None], complex)
@@ -213,7 +213,7 @@ def refined(w: Array, L: NDArray[np.complexfloating]) -> tuple[Array, NDArray[np
 
 
 def largest(
-    stable: Callable[[float], bool], first: float = FIRST, most: float = MOST, accuracy: float = RELATIVE
+    stable: Callable[[float], bool], first: float = MIN_LAG, most: float = MAX_LAG, accuracy: float = TOLERANCE
 ) -> float:
     """The smallest number above 0 at which stability is lost, by bisection from `first` on; infinite beyond `most`."""
     low, high = 0.0, first
@@ -252,7 +252,8 @@ def margins_of(axis: str, w: Array, L: NDArray[np.complexfloating]) -> AxisMargi
     gain, least_gain, least, crossover = math.inf, 0.0, math.nan, math.nan
     for k in np.flatnonzero((size[:-1] >= 0.0) != (size[1:] >= 0.0)):
         part = size[k] / (size[k] - size[k + 1])
-        left = _wrapped(math.degrees((1.0 - part) * phase[k] + part * phase[k + 1]) + 180.0)
+        left = math.degrees((1.0 - part) * phase[k] + part * phase[k + 1]) + 180.0
+        left = (left + 180.0) % 360.0 - 180.0  # within a half turn
         if math.isnan(least) or abs(left) < abs(least):
             least, crossover = left, math.exp((1.0 - part) * math.log(w[k]) + part * math.log(w[k + 1]))
     turns = (phase + math.pi) / (2.0 * math.pi)
@@ -262,8 +263,3 @@ def margins_of(axis: str, w: Array, L: NDArray[np.complexfloating]) -> AxisMargi
         factor = math.exp(-((1.0 - part) * size[k] + part * size[k + 1]))
         gain, least_gain = (min(gain, factor), least_gain) if factor > 1.0 else (gain, max(least_gain, factor))
     return AxisMargins(axis, gain, least_gain, least, crossover)
-
-
-def _wrapped(angle: float) -> float:
-    """An angle [deg] within ±180."""
-    return (angle + 180.0) % 360.0 - 180.0

@@ -28,11 +28,11 @@ from tandemlift.core.plugs import error_text
 from tandemlift.core.types import Array, Progress
 from tandemlift.flight.record import Flight, moment_of
 
-AT_ONCE = 4  # flights in memory
+BATCH_SIZE = 4  # flights in memory
 FORCES = [round(3.0 / 1.2**i, 3) for i in range(16)]  # N: steps of a push, from 3 to 0.2 N
-SOON, FIRST, EVERY, HELD = 0.08, 13.0, 3.0, 0.3  # s
-EDGE = 0.01  # s: of the Gaussians that a step is made of
-WAYS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
+FOLLOW_TIME, FIRST_PUSH, PUSH_SPACING, PUSH_TIME = 0.08, 13.0, 3.0, 0.3  # s
+EDGE_TIME = 0.01  # s: of the Gaussians that a step is made of
+DIRECTIONS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
 COLUMNS = r"time$|measured_(?!joint)|estimated_(position|velocity|attitude|rates)|rotor_commands"
 """Channels that a function of a table reads, as a pattern."""
 
@@ -64,20 +64,20 @@ def plan_of(entry: BenchmarkEntry, task: str, *, quick: bool) -> StudyPlan:
 
 def steps_of_pushes() -> list[dict[str, Any]]:
     """Steps along all ways with each force, the largest first; each is a sum of Gaussians."""
-    apart = 1.5 * EDGE
-    peak = apart / (EDGE * math.sqrt(2.0 * math.pi))
+    apart = 1.5 * EDGE_TIME
+    peak = apart / (EDGE_TIME * math.sqrt(2.0 * math.pi))
     return [
-        {"force": [peak * force * x, peak * force * y, 0.0], "time": at + apart * (k + 0.5), "sigma": EDGE}
+        {"force": [peak * force * x, peak * force * y, 0.0], "time": at + apart * (k + 0.5), "sigma": EDGE_TIME}
         for force, steps in _steps()
         for at, (x, y) in steps
-        for k in range(round(HELD / apart))
+        for k in range(round(PUSH_TIME / apart))
     ]
 
 
 def _steps() -> Iterator[tuple[float, list[tuple[float, tuple[float, float]]]]]:
     """Each force [N], with the beginnings [s] and directions of its steps."""
     for i, force in enumerate(FORCES):
-        yield force, [(FIRST + EVERY * (len(WAYS) * i + j), way) for j, way in enumerate(WAYS)]
+        yield force, [(FIRST_PUSH + PUSH_SPACING * (len(DIRECTIONS) * i + j), way) for j, way in enumerate(DIRECTIONS)]
 
 
 def smallest_push(flight: Flight) -> Row:
@@ -85,7 +85,7 @@ def smallest_push(flight: Flight) -> Row:
     smallest = math.inf
     for force, steps in _steps():
         for at, (x, _) in steps:
-            within = (flight.time >= at) & (flight.time < at + SOON)
+            within = (flight.time >= at) & (flight.time < at + FOLLOW_TIME)
             if not flight["push_active"][within, 0 if x else 1].any():
                 return {"smallest_push_n": smallest}
         smallest = force
@@ -153,7 +153,7 @@ def fly_task(entry: BenchmarkEntry, task: str, *, quick: bool, progress: Progres
     plan = plan_of(entry, task, quick=quick)
     rows, found = plan.rows(0, plan.count), list[Any]()
     own = partial(of_function, entry.function) if entry.function else OF_CHANNELS.get(task)
-    at_once = len(rows) if own is None else 1 if entry.function else AT_ONCE
+    at_once = len(rows) if own is None else 1 if entry.function else BATCH_SIZE
     for first in range(0, len(rows), at_once):
         missions = [plan.mission(row) for row in rows[first : first + at_once]]
         shown = progress and partial(_advance, progress, first, len(rows))

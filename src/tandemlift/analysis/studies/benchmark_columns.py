@@ -115,14 +115,14 @@ TABLES: dict[Kind, tuple[Column, ...]] = {
 """The columns, in the order of the tables."""
 
 
-WIDE, LONGEST = 80, 24  # of a terminal and of a name, in characters
+WIDTH, NAME = 80, 24  # of a terminal and of a name, in characters
 
 
 def lines_of(kind: Kind, rows: Mapping[str, Scores], own: str = "") -> list[str]:
     """Tables as Markdown that fit a terminal: a column for each row of the scores; that of `own` is in every table."""
 
     def column(name: str) -> list[str]:
-        head, numbers = name if len(name) <= LONGEST else f"{name[: LONGEST - 1]}…", [rows[name].get(t) for t in titles]
+        head, numbers = name if len(name) <= NAME else f"{name[: NAME - 1]}…", [rows[name].get(t) for t in titles]
         shown = ("–" if x is None else f"{x:,.0f}" if abs(x) >= 1e3 else f"{x:.4g}" for x in numbers)
         return _wide([head, ":", *shown], str.rjust)
 
@@ -130,7 +130,7 @@ def lines_of(kind: Kind, rows: Mapping[str, Scores], own: str = "") -> list[str]
     first = [_wide([kind, "", *titles], str.ljust), *([column(own)] if own else [])]
     tables = [first]
     for table_column in (column(name) for name in rows if name != own):
-        if sum(len(c[0]) + 3 for c in (*tables[-1], table_column)) >= WIDE:
+        if sum(len(c[0]) + 3 for c in (*tables[-1], table_column)) >= WIDTH:
             tables.append(first)
         tables[-1] = [*tables[-1], table_column]
     lines = [[f"| {' | '.join(row)} |" for row in zip(*table, strict=True)] for table in tables]

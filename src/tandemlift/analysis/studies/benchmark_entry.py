@@ -59,18 +59,14 @@ def baselines(kind: Kind) -> list[BenchmarkEntry]:
         own = [name for name, c in sorted(CONTROLLERS.items()) if c.start.__module__.startswith("tandemlift.")]
         return [BenchmarkEntry(kind, name, {}, name) for name in own]
     if kind == "observers":
-        found = [BenchmarkEntry(kind, name, {WRENCH: name}) for name in get_args(_annotation("estimator", "wrench"))]
+        observers = Mission.model_fields["estimator"].annotation.model_fields["wrench"].annotation  # type: ignore[union-attr]
+        found = [BenchmarkEntry(kind, name, {WRENCH: name}) for name in get_args(observers)]
         return [*found, BenchmarkEntry(kind, "zero", {WRENCH: RECORDED}, function=nothing)]
     return [
         BenchmarkEntry(kind, "damping of 1.6 N s/m", {f"{POLICY}.model": "none"}),
         BenchmarkEntry(kind, "damping of 1.0 N s/m", {f"{POLICY}.model": "none", "admittance.damping": 1.0}),
         BenchmarkEntry(kind, "the policy that ships", NETWORK),
     ]
-
-
-def _annotation(table: str, key: str) -> Any:
-    """The type of a key of missions."""
-    return Mission.model_fields[table].annotation.model_fields[key].annotation  # type: ignore[union-attr]
 
 
 def entry_of(file: Path) -> BenchmarkEntry:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.studies.execution.checked_file import ABOUT, CheckedFile, DamagedFile
+from tandemlift.analysis.studies.execution.checked_file import PREFIX, CheckedFile, DamagedFile
 from tandemlift.core.errors import extra, unknown
 from tandemlift.core.types import Array
 
@@ -52,7 +52,7 @@ def columns_in(files: Iterable[ChunkFile]) -> tuple[str, ...]:
 def about(file: ChunkFile) -> dict[str, str]:
     """The metadata of a file: study, chunk, sources and version of tandemlift."""
     said = {key.decode(): value.decode() for key, value in _opened(file).about.items()}
-    return {key.removeprefix(ABOUT): value for key, value in said.items() if key.startswith(ABOUT)}
+    return {key.removeprefix(PREFIX): value for key, value in said.items() if key.startswith(PREFIX)}
 
 
 def _read_file(file: ChunkFile, names: Sequence[str], coded: Collection[str]) -> pyarrow.Table:

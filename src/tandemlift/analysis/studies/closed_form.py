@@ -15,7 +15,7 @@ from tandemlift.missions import Mission
 AXES = ("x", "y", "z")
 YAW = "yaw"
 FORCE, MOMENT = 1.0, 0.5  # N, N m: the standard push if the mission has none
-ABOVE = 2.0  # times the threshold, the smallest standard push
+THRESHOLD_FACTOR = 2.0  # times the threshold, the smallest standard push
 
 
 class AxisFeel(NamedTuple):
@@ -83,12 +83,12 @@ def axes_of(m: Mission) -> tuple[AxisFeel, ...]:
     """
     a, by_hand, found = m.admittance, m.pilot.guidance == "interactive", list[AxisFeel]()
     for i, axis in enumerate(AXES):
-        push = max(FORCE, ABOVE * a.threshold[i]) if a.feel is None else a.feel.axes[i].force
+        push = max(FORCE, THRESHOLD_FACTOR * a.threshold[i]) if a.feel is None else a.feel.axes[i].force
         numbers = (a.mass[i], a.damping[i], a.stiffness[i], a.threshold[i])
         found.append(AxisFeel(axis, *numbers, subtracts_threshold=by_hand or a.gate == "soft", push=push))
     yaw = m.compliance.yaw
     if by_hand and yaw.model == "compliant":
         inertia = float(m.hover.vehicle.inertia[2, 2]) if yaw.inertia is None else yaw.inertia
-        push = max(MOMENT, ABOVE * yaw.threshold)
+        push = max(MOMENT, THRESHOLD_FACTOR * yaw.threshold)
         found.append(AxisFeel(YAW, inertia, yaw.damping, 0.0, yaw.threshold, subtracts_threshold=True, push=push))
     return tuple(found)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import xarray
 
 WHO = ("mission", "controller", "engine")
-SHAPED = (*WHO, "case", "draw", "seed", "row")  # columns that are given by the dimensions
+DIMENSION_COLUMNS = (*WHO, "case", "draw", "seed", "row")  # columns that are given by the dimensions
 
 
 def to_xarray(plan: StudyPlan, table: pyarrow.Table, varied: pyarrow.Table) -> xarray.Dataset:
@@ -42,7 +42,7 @@ def to_xarray(plan: StudyPlan, table: pyarrow.Table, varied: pyarrow.Table) -> x
     drawn = [name for name in varied.column_names if name != "seed" and name not in coordinates]
     for name, column in [(SEED, "seed"), *[(name, name) for name in drawn]]:
         found[name] = _along_few(grid(varied[column]), dims)
-    measured = [name for name in table.column_names if name not in (*SHAPED, *varied.column_names)]
+    measured = [name for name in table.column_names if name not in (*DIMENSION_COLUMNS, *varied.column_names)]
     variables = {name: (dims, grid(table[name])) for name in measured}
     about = {"name": plan.settings.study.name}
     return xarray.Dataset(variables, found, about)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from tandemlift.analysis.studies.chunk_files import floats_of
 from tandemlift.analysis.studies.design.settings import REFUSED
 from tandemlift.analysis.studies.metric_descriptions import METRICS
-from tandemlift.analysis.studies.table import BAD, Study
+from tandemlift.analysis.studies.table import LOSSES, Study
 from tandemlift.core.errors import unknown
 from tandemlift.core.types import Array
 
@@ -183,7 +183,7 @@ class StudyRows:
     @cached_property
     def bad(self) -> NDArray[np.bool_]:
         """Whether a flight failed or a row was refused (rows,)."""
-        return self._has_outcome(BAD)
+        return self._has_outcome(LOSSES)
 
     @cached_property
     def refused(self) -> NDArray[np.bool_]:

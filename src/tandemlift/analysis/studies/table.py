@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     import pyarrow
     import xarray
 
-BAD = (*FAILURES, REFUSED)
+LOSSES = (*FAILURES, REFUSED)
 """Outcomes of rows that went wrong: flights that failed, and rows that could not be flown."""
 MOST_FINDINGS = 3  # kinds that the terminal lists
 

@@ -9,7 +9,7 @@ import numpy as np
 from tandemlift.analysis.studies.study_rows import Places, Quantity, StudyRows
 from tandemlift.core.phases import FAILURES
 
-MOST = 10
+ROW_COUNT = 10
 OF_OUTCOMES = ("diverged", "crashed", "not-lifted")  # the worst first
 
 
@@ -25,7 +25,7 @@ class WorstRow(NamedTuple):
     quantity: Quantity | None
 
 
-def worst_rows(rows: StudyRows, most: int = MOST) -> list[WorstRow]:
+def worst_rows(rows: StudyRows, most: int = ROW_COUNT) -> list[WorstRow]:
     """The worst rows that flew.
 
     Failed flights come first: diverged, crashed, not lifted, the soonest stopped first. If there are many, places are

@@ -38,7 +38,7 @@ def export(flight_or_mission: str, out: str, settings: tuple[str, ...], plugin: 
     A flight or a mission:  .sdf   Gazebo world  .xml  MuJoCo model  .urdf  robot of ROS
 
     The ending of FILE selects the format. FLIGHT_OR_MISSION is a saved flight (flight.npz or its folder) or a mission.
-    Bags need rosbags (pip install 'tandemlift[export]'), MuJoCo models mujoco. docs/reference/export.md has the files.
+    Bags need rosbags (pip install 'tandemlift[export]'), MuJoCo models mujoco. docs/reference/flights.md has the files.
 
     \b
     Examples:

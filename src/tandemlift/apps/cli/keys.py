@@ -16,7 +16,7 @@ from tandemlift.apps.export.results import file_path
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.files import atomic_write
 
-LEAST = 1e-4  # kg, of a new beam
+FLOOR = 1e-4  # kg, of a new beam
 controller_option = click.option(
     "--controller", metavar="FILE", help="Your own controller (.py file): its keys are included."
 )
@@ -81,9 +81,9 @@ def new(
     beam = NewBeam.default(*map(str.lower, quadrotors or ("iris",)))
     beam = beam._replace(length=_answer("length", length, beam.length, beam.shortest, 100.0, "m"))
     beam = beam._replace(center=_answer("center", center, 0.0, -0.5 * beam.length, 0.5 * beam.length, "m"))
-    if (mass or LEAST) > beam.largest_mass:
-        raise InputError(f"--mass {mass or LEAST:g}: {heaviest_words(beam)}")
-    beam = beam._replace(mass=_answer("mass", mass, min(beam.mass, beam.largest_mass), LEAST, beam.largest_mass, "kg"))
+    if (mass or FLOOR) > beam.largest_mass:
+        raise InputError(f"--mass {mass or FLOOR:g}: {heaviest_words(beam)}")
+    beam = beam._replace(mass=_answer("mass", mass, min(beam.mass, beam.largest_mass), FLOOR, beam.largest_mass, "kg"))
     echo(*hover_words(beam))
     with atomic_write(path) as partial_file:
         partial_file.write_text(new_mission(path.stem, beam), "utf-8")

@@ -20,9 +20,9 @@ from tandemlift.missions import Mission, VehicleTable, idle_keys, load_mission, 
 from tandemlift.missions.key_descriptions import sections
 
 FOLDER = DATA / "quadrotors"
-HIGH = 1.5  # height of the quadrotors' centres above the beam's axis, by its radius, as in the paper
+MOUNT = 1.5  # height of the quadrotors' centres above the beam's axis, by its radius, as in the paper
 PUSHES = ((3.0, 0.0, 0.0), 14.0), ((0.0, 3.0, 0.0), 22.0)  # N, of `iris`; s, after the tare
-KEPT = ("vehicle.quadrotors", "vehicle.payload", "plant", "person", "wind", "pushes", "disturbance", "admittance.feel")
+KEYS = ("vehicle.quadrotors", "vehicle.payload", "plant", "person", "wind", "pushes", "disturbance", "admittance.feel")
 
 
 @functools.cache
@@ -96,7 +96,7 @@ class NewBeam(NamedTuple):
         }
         fleet = []
         for table, end in zip(tables, (0.5, -0.5), strict=True):
-            height = round(HIGH * radius + table["feet_depth"] - shortest_feet, 6)
+            height = round(MOUNT * radius + table["feet_depth"] - shortest_feet, 6)
             own = {key: value for key, value in table.items() if key != "beam"}
             fleet.append({**own, "position": [0.0, end * self.length, height]})
         return {"payload": payload, "quadrotors": fleet}
@@ -148,7 +148,7 @@ def scaled(beam: NewBeam) -> Iterator[tuple[str, str, Any]]:
 def _scaled(beam: NewBeam) -> Iterator[tuple[str, str, Any]]:
     base, vehicle, tables = _base().hover.vehicle, beam.mission.hover.vehicle, tables_of(_base())
     force, turning = vehicle.mass / base.mass, np.diag(vehicle.inertia) / np.diag(base.inertia)
-    for key in (key for section in sections() for key in section.keys if not key.name.startswith(KEPT)):
+    for key in (key for section in sections() for key in section.keys if not key.name.startswith(KEYS)):
         unit, value = key.facts.unit or "", value_at(tables, tuple(key.name.split(".")))
         if not unit.startswith(("N", "kg")) or not isinstance(value, float | list | tuple):
             continue

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from tandemlift.core.progress import Compiled
 
 PATIENCE = 2.0  # s of compiling, after which a line appears in a terminal before the end
-LEAST = 0.1  # s, less than which none appears
+MIN_DELAY = 0.1  # s, less than which none appears
 
 
 class CompileNotices:
@@ -55,7 +55,7 @@ class CompileNotices:
             return
         made, seconds, is_kept = self._made, self._seconds, self._is_kept
         self._made, self._seconds, self._is_kept = [], 0.0, True
-        if made and seconds >= LEAST:
+        if made and seconds >= MIN_DELAY:
             kind = made[0] if len(set(made)) == 1 else "loop"
             loops, they = (f"the {kind}", "it is") if len(made) == 1 else (f"{len(made)} {kind}s", "they are")
             kept = f"{they} kept for next time" if is_kept else "the cache cannot be written (TANDEMLIFT_CACHE)"

@@ -42,7 +42,7 @@ def report(flight: str, out: str | None, no_figures: bool, style: str | None, me
     """Write figures and report of a saved flight, a bag or a study.
 
     FLIGHT is flight.npz or its folder, or a bag of ROS 1 (.bag) or ROS 2 (.mcap, or its folder) with the topics of
-    docs/reference/export.md: an exported one, or one recorded during a flight by `rosbag record` or `ros2 bag record`.
+    docs/reference/flights.md: an exported one, or one recorded during a flight by `rosbag record` or `ros2 bag record`.
     Or it is the folder of a study, which may still fly: docs/reference/studies.md describes its report.
 
     \b

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from tandemlift.analysis.studies.execution.chunk_scheduling import StudyPart
 
 
-MANY = 2_000  # rows; fewer are mostly flown by threads before processes have started
+PROCESS_ROWS = 2_000  # rows; fewer are mostly flown by threads before processes have started
 
 
 @click.command()
@@ -121,7 +121,7 @@ def _workers(plan: StudyPlan, part: StudyPart, processes: int | None, threads: i
     if processes and threads:
         raise InputError("--processes, --threads: give only one of them")
     rows = plan.count // part.parts
-    if threads is None and processes is None and rows >= MANY and processors() > 1:
+    if threads is None and processes is None and rows >= PROCESS_ROWS and processors() > 1:
         processes = min(processors(), -(-rows // plan.rows_per_chunk))
     return (processes, "processes") if processes else (threads or processors(), "threads")
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 from tandemlift.apps.clients import setpoints as sp
 
 GRAVITY = 9.81
-APART = 2.0  # between the bandwidths of a loop and of the one inside, so that each is damped by about 0.7
+RATIO = 2.0  # between the bandwidths of a loop and of the one inside, so that each is damped by about 0.7
 LARGEST_RATE_GAIN = 40.0  # 1/s; chosen: the firmware's is above it, with rotors faster than those modelled here
 # platform_defaults_cf21bl.h: gains there, and their size in SI units
 ATTITUDE_GAIN = 6.0  # 1/s; PID_ROLL_KP
@@ -51,11 +51,11 @@ def gains_for(lag: float) -> LoopGains:
     A rate loop K/(s (τ s + 1)) with K = 1/(2 τ) is damped by 0.7.
     """
     rate = min(1.0 / (2.0 * max(lag, 1e-3)), LARGEST_RATE_GAIN)
-    attitude = min(rate / APART, ATTITUDE_GAIN)
-    velocity = min(attitude / APART, VELOCITY_GAIN)
-    climb = min(rate / APART, CLIMB_GAIN)
+    attitude = min(rate / RATIO, ATTITUDE_GAIN)
+    velocity = min(attitude / RATIO, VELOCITY_GAIN)
+    climb = min(rate / RATIO, CLIMB_GAIN)
     return LoopGains(
-        rate, attitude, velocity, min(velocity / APART, POSITION_GAIN), climb, min(climb / APART, POSITION_GAIN)
+        rate, attitude, velocity, min(velocity / RATIO, POSITION_GAIN), climb, min(climb / RATIO, POSITION_GAIN)
     )
 
 
@@ -197,7 +197,7 @@ class InnerLoops:
         self._max = [share * most for share, most in zip(MOMENT_SHARES, max_moment, strict=True)]
         accelerations = [most / J for most, J in zip(self._max, inertia, strict=True)]
         self.rate_gains = [min(gains.rate, a / SATURATES) for a in accelerations]
-        self.attitude_gains = [min(gains.attitude, k / APART) for k in self.rate_gains]
+        self.attitude_gains = [min(gains.attitude, k / RATIO) for k in self.rate_gains]
         self._brakes = [BRAKING * a for a in accelerations]
         self.reset()
 

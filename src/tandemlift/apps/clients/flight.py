@@ -17,7 +17,7 @@ from tandemlift.apps.live.session.session import Session
 # settings of a mission whose own pilot, which decides nothing, needs no sensors, no tare and no hands off
 PILOT_ASIDE = ("pilot.push=truth", "pilot.state=truth", "contact.model=none")
 BODY = ("position", "velocity", "attitude", "rates")  # channels of a state (13,)
-HIGHEST = 0.02  # m, of the feet above the floor at the start
+MAX_START_HEIGHT = 0.02  # m, of the feet above the floor at the start
 BEFORE_THRUSTS, AFTER_OVERRIDE = 6, 4  # numbers of a `CallerInput`: force and point; a velocity and whether it counts
 
 
@@ -36,7 +36,7 @@ def check_stands(mission: Mission) -> None:
     given, feet = mission.ground, mission.initial.position[2] + float(mission.hover.vehicle.soles[..., 2].min())
     if given.model != "floor":
         wrong = f'ground.model = "{given.model}": must be "floor"'
-    elif given.height is not None and feet > given.height + HIGHEST:
+    elif given.height is not None and feet > given.height + MAX_START_HEIGHT:
         wrong = f"ground.height = {given.height}: must be unset, or at the feet"
     else:
         return

@@ -11,7 +11,7 @@ from tandemlift import Vehicle
 from tandemlift.apps.clients.cascade import Demand, InnerLoops, LoopGains
 from tandemlift.apps.clients.setpoints import Vector
 
-NEARER = 0.1  # of the distance of quadrotors: targets that are nearer give no direction; chosen
+MARGIN = 0.1  # of the distance of quadrotors: targets that are nearer give no direction; chosen
 
 
 def vector(values: np.ndarray) -> Vector:
@@ -79,4 +79,4 @@ def _yaw_through(aims: Sequence[tuple[Sequence[float], Vector]], otherwise: floa
     arms, targets = (np.array(points)[:, :2] for points in zip(*aims, strict=True))
     (a, b), (x, y) = (arms - arms.mean(axis=0)).T, (targets - targets.mean(axis=0)).T
     sine, cosine = float(a @ y - b @ x), float(a @ x + b @ y)
-    return math.atan2(sine, cosine) if math.hypot(sine, cosine) > NEARER * float(a @ a + b @ b) else otherwise
+    return math.atan2(sine, cosine) if math.hypot(sine, cosine) > MARGIN * float(a @ a + b @ b) else otherwise

@@ -24,9 +24,9 @@ Control = Literal["own", "shared"]
 INNER_EVERY, OUTER_EVERY = 0.002, 0.01  # s; crazyflie-firmware, stabilizer_types.h: ATTITUDE_RATE, POSITION_RATE
 AGREEMENT = 1.0  # s, in which integrators of quadrotors on one body agree; chosen
 TUMBLED = math.radians(90.0)  # beyond this tilt rotors stop
-IDLE = 0.05  # of the weight: more thrust than this is a flight
+IDLE_THRUST = 0.05  # of the weight: more thrust than this is a flight
 # s without a setpoint, after which a quadrotor levels out, and stops; crazyflie-firmware, commander.h:
-LEVELS, STOPS = 0.5, 2.0  # COMMANDER_WDT_TIMEOUT_STABILIZE, COMMANDER_WDT_TIMEOUT_SHUTDOWN
+LEVELLING_TIME, SHUTDOWN_TIME = 0.5, 2.0  # COMMANDER_WDT_TIMEOUT_STABILIZE, COMMANDER_WDT_TIMEOUT_SHUTDOWN
 
 
 class ArmingState(Enum):
@@ -144,7 +144,7 @@ class Quadrotors:
     def is_flying(self, i: int) -> bool:
         """Whether the rotors of quadrotor `i` lift something."""
         share = self.vehicle.weight / self.count
-        return bool(self.is_armed(i) and float(self._thrusts[4 * i : 4 * i + 4].sum()) > IDLE * share)
+        return bool(self.is_armed(i) and float(self._thrusts[4 * i : 4 * i + 4].sum()) > IDLE_THRUST * share)
 
     def is_tumbled(self, i: int) -> bool:
         """Whether quadrotor `i` is tilted by more than a right angle."""
@@ -195,17 +195,17 @@ class Quadrotors:
             commands = {i: c for i in armed if (c := self._setpoints[i]) and not isinstance(c[0], sp.Stop)}
             for i, (setpoint, at) in commands.items():
                 age = now - max(at for _, at in commands.values())  # a member without commands is no loss
-                if age <= LEVELS:
+                if age <= LEVELLING_TIME:
                     if self.supervision[i] is ArmingState.WARNING:
                         self.supervision[i] = ArmingState.ARMED
-                    if now - at <= LEVELS:  # else it is carried, by what the others are commanded
+                    if now - at <= LEVELLING_TIME:  # else it is carried, by what the others are commanded
                         self._flown[i] = setpoint
                 elif self.is_flying(i):
                     self._flown[i] = self._without_setpoint(i, setpoint, age)
 
     def _without_setpoint(self, i: int, last: sp.Setpoint, age: float) -> sp.Setpoint | None:
         """The setpoint of quadrotor `i` if none came for a time [s] after the `last` one; None: its rotors stop."""
-        if age > STOPS:
+        if age > SHUTDOWN_TIME:
             self.lock(i)
             return None
         if self.supervision[i] is ArmingState.WARNING:

@@ -207,7 +207,7 @@ def _pacing() -> dict[str, float]:
         "batch": pacing.BATCH,
         "pause": pacing.PAUSE,
         "echo": frames.ECHO,
-        "fresh": frames.FRESH,
+        "fresh": frames.ECHO_TIME,
         "silent": SILENT,
         "status_every": frames.STATUS_EVERY,
     }

@@ -17,7 +17,7 @@ from tandemlift.missions import load_mission
 FOLDER = "flights"  # beside the page's other files
 MARK = 'id="flights"'  # in an index.html of ours
 SHOWN_INSTEAD = "one-push"  # mission of the flight that a browser without WebAssembly plays
-EVERY = 6  # frames of that flight, of which one is kept
+FRAME_STRIDE = 6  # frames of that flight, of which one is kept
 ONLY_SERVER = (
     "another controller or gate, chosen in flight",
     "sensors tared anew",
@@ -95,4 +95,4 @@ def _replay() -> str:
     from tandemlift.simulation.fly import fly
 
     mission = load_mission(SHOWN_INSTEAD)
-    return kept(mission, "replay", lambda: replay_element(fly(mission), EVERY).encode()).decode()
+    return kept(mission, "replay", lambda: replay_element(fly(mission), FRAME_STRIDE).encode()).decode()

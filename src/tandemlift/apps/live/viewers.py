@@ -13,11 +13,11 @@ from pydantic_core import to_json
 from websockets.asyncio.server import ServerConnection, broadcast
 
 from tandemlift.apps.live.session import page_messages as page
-from tandemlift.apps.live.session.frames import ECHO, FRESH
+from tandemlift.apps.live.session.frames import ECHO, ECHO_TIME
 from tandemlift.apps.live.session.page_messages import SILENT, Refusal
 from tandemlift.apps.live.session.server_messages import FlightStatus, RefusedMessage, TurnStatus
 
-IDLE = 30.0  # s without a message, after which the hand goes on to a page that waits
+HAND_TIMEOUT = 30.0  # s without a message, after which the hand goes on to a page that waits
 
 
 class Turns:
@@ -52,16 +52,16 @@ class Turns:
 
     def pass_on(self, now: float) -> None:
         """Pass the hand on if its player does nothing while others wait."""
-        if len(self._queue) > 1 and now - max(self._since, self._queue[0].last_message) > IDLE:
+        if len(self._queue) > 1 and now - max(self._since, self._queue[0].last_message) > HAND_TIMEOUT:
             self.take(self._queue[0], "give", now)
 
 
-BEHIND = 4_096  # bytes not yet taken by the network, beyond which a viewer is behind
-LOST = 1_000_000  # bytes, beyond which it is cut off: it reads nothing at all
+LAG_BYTES = 4_096  # bytes not yet taken by the network, beyond which a viewer is behind
+CUT_OFF_BYTES = 1_000_000  # bytes, beyond which it is cut off: it reads nothing at all
 MAX_MESSAGES = 2_000  # a second; a page sends about a hundred
 FAREWELL = 1.0  # s, for pages to close their connections
 MAX_REFUSALS = 20  # that are reported in a second
-REFUSED = 10  # messages that a refused one counts as: a page is refused at the rate of its pictures, at most
+REFUSAL_COST = 10  # messages that a refused one counts as: a page is refused at the rate of its pictures, at most
 MAX_WORK, ALL_WORK = 0.05, 0.2  # of a processor, by a page, by all; the messages of a page take a hundredth
 
 
@@ -93,7 +93,7 @@ class Viewer:
     @property
     def behind(self) -> bool:
         """Whether earlier data still waits to be sent."""
-        return self.connection.transport.get_write_buffer_size() > BEHIND
+        return self.connection.transport.get_write_buffer_size() > LAG_BYTES
 
     def send_frame(self, frame: bytes) -> None:
         """Send a frame, unless it is behind."""
@@ -114,7 +114,7 @@ class Viewer:
 
     def send(self, what: Mapping[str, Any] | str | bytes) -> None:
         """Send a message, or a frame that it must not miss, or cut off a viewer that does not read."""
-        if self.connection.transport.get_write_buffer_size() > LOST:
+        if self.connection.transport.get_write_buffer_size() > CUT_OFF_BYTES:
             self.connection.transport.abort()
         else:
             broadcast([self.connection], what if isinstance(what, str | bytes) else text_of(what))
@@ -122,7 +122,7 @@ class Viewer:
     def refuse(self, refusal: Refusal) -> None:
         """Send the reason of a refused message; a few times a second at most."""
         self._begin_second()
-        self._messages += REFUSED - 1
+        self._messages += REFUSAL_COST - 1
         self._refusals += 1
         if self._refusals <= MAX_REFUSALS:
             self.send(RefusedMessage(type="refused", what=refusal.what, reason=str(refusal)))
@@ -209,7 +209,7 @@ class Viewers:
         """Send a frame to all who can take it."""
         now = time.monotonic()
         for viewer in self:
-            if now - viewer.last_echo > FRESH:
+            if now - viewer.last_echo > ECHO_TIME:
                 viewer.send_frame(frame)
 
     def send(self, what: Mapping[str, Any]) -> None:

@@ -13,7 +13,7 @@ from tandemlift.apps.ros.middleware import Middleware
 from tandemlift.simulation.results import changes_of
 
 AGAIN = 1.0  # s, before the same words are repeated
-MOST = 100  # events that wait
+MAX_EVENTS = 100  # events that wait
 Notify = Callable[[str], None]
 
 
@@ -26,9 +26,9 @@ class FlightDiagnostics:
 
     def __init__(self, middleware: Middleware) -> None:
         self._middleware = middleware
-        self._channel = middleware.advertise(DIAGNOSTICS.name, DIAGNOSTICS.kind, depth=MOST)
+        self._channel = middleware.advertise(DIAGNOSTICS.name, DIAGNOSTICS.kind, depth=MAX_EVENTS)
         self._event, self._status = event_maker(middleware.types), status_maker(middleware.types)
-        self._waiting: deque[tuple[int, str]] = deque(maxlen=MOST)
+        self._waiting: deque[tuple[int, str]] = deque(maxlen=MAX_EVENTS)
         self._said: dict[str, float] = {}
         self._now = (-1, 0, 0, 0)  # phase, alarm, failed check, contact
 
@@ -45,7 +45,7 @@ class FlightDiagnostics:
             at, what = self._waiting.popleft()
             self._channel.publish(self._event(at, what))
             self._middleware.log(what)
-        if len(self._said) > MOST:
+        if len(self._said) > MAX_EVENTS:
             self._said.clear()
 
     def follow(self, flight: Flight, stamps: list[int]) -> None:

@@ -25,7 +25,7 @@ from tandemlift.missions import tables_of
 
 DAMPING, RATIO = "admittance.damping", "admittance.damping_ratio"
 SPRING = ("person.stiffness", "person.damping")  # of a page's hand; here pushes are forces
-LAST = (DAMPING, RATIO)  # are set after mass and stiffness, of which they are formed
+DEPENDENT_KEYS = (DAMPING, RATIO)  # are set after mass and stiffness, of which they are formed
 
 
 class Parameters:
@@ -48,7 +48,7 @@ class Parameters:
     def exchange(self) -> bool:
         """Apply what has been set, and set all to the present values; whether anything changed since the last time."""
         wishes, before = self._middleware.parameters(), self._known
-        for key in sorted(wishes, key=lambda key: (key in LAST, key)):
+        for key in sorted(wishes, key=lambda key: (key in DEPENDENT_KEYS, key)):
             self.change(key, wishes[key])
         with self._turn:
             self._middleware.keep(dict(self._values()))

@@ -85,9 +85,9 @@ class RequestServices:
         return str(refusal) if refusal else f"{what}: the pilot stays in phase {self._phase()}; ask again"
 
 
-HELD = 0.5  # s of the flight, for which a push acts without another message
+PUSH_TIMEOUT = 0.5  # s of the flight, for which a push acts without another message
 FELT, AGAIN = 0.4, 1.0  # s of the flight, from the begin of a push to a look at whether it is followed, and to the next
-LEAST = 1e-6  # N, below which there is no push
+MIN_FORCE = 1e-6  # N, below which there is no push
 SLIP = 1e-6  # fraction of a torque that may be about the force's own direction
 ABSURD = 1e6  # N, N m
 
@@ -116,7 +116,7 @@ class Pushes:
                 force, point = self._read(message)
                 self._push(force, point)
                 now, dt = self._session.flight.step, self._session.flight.dt
-                self._until = now + HELD / dt if any(force) else math.inf
+                self._until = now + PUSH_TIMEOUT / dt if any(force) else math.inf
                 if not any(force):
                     self._look = math.inf
                 elif self._look == math.inf:
@@ -129,7 +129,7 @@ class Pushes:
         """After every step: end the push if no message has come for too long; report it if it is not followed."""
         if flight.step >= self._until:
             self.let_go()
-            self._notify(f"push over: no message for {HELD:g} s")
+            self._notify(f"push over: no message for {PUSH_TIMEOUT:g} s")
         if flight.step >= self._look:
             self._look = flight.step + AGAIN / flight.dt
             if flight.refusals.push:
@@ -168,7 +168,7 @@ class Pushes:
         """A force of the same direction that the flight's hand has at most."""
         most, size = self._session.flight.now.person.max_force, float(np.linalg.norm(force))
         if size <= most:
-            return force if size >= LEAST else np.zeros(3)
+            return force if size >= MIN_FORCE else np.zeros(3)
         self._notify(f"push cut: {size:.3g} N is more than person.max_force = {most:g} N")
         return force * (most / size)
 
@@ -181,7 +181,7 @@ class Pushes:
         size, turning = float(np.linalg.norm(force)), float(np.linalg.norm(torque))
         if not turning:
             return self._origins[frame]
-        if size < LEAST or abs(force @ torque) > SLIP * size * turning:
+        if size < MIN_FORCE or abs(force @ torque) > SLIP * size * turning:
             raise InputError("a torque that no force at a point has: its part along the force must be zero")
         point = self._origins[frame] + np.cross(force, torque) / size**2
         if np.linalg.norm(point) > self._reach:

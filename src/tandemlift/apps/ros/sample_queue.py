@@ -19,7 +19,7 @@ from tandemlift.core.types import Array
 from tandemlift.simulation.recorded_flight import RecordedFlight
 from tandemlift.simulation.results import recorded_channels
 
-MOST = 1000  # samples that may wait; more are forgotten, the oldest first
+MAX_SAMPLES = 1000  # samples that may wait; more are forgotten, the oldest first
 
 
 class Clock:
@@ -69,7 +69,7 @@ class SampleQueue:
 
     def __init__(self, every: int, clock: Clock) -> None:
         self._every, self._clock = every, clock
-        self._waiting: deque[tuple[int, float, Array]] = deque(maxlen=MOST)
+        self._waiting: deque[tuple[int, float, Array]] = deque(maxlen=MAX_SAMPLES)
         self._some = threading.Event()
 
     def note(self, flight: RecordedFlight) -> None:

@@ -20,13 +20,13 @@ DELETE = 2
 KINDS = {"box": CUBE, "sphere": SPHERE, "cylinder": CYLINDER}
 UNTURNED = (1.0, 0.0, 0.0, 0.0)
 GROUND, LINE = "#ffffff", "#c3c9d1"
-THICK = 0.02  # m, of the floor as drawn
+FLOOR_THICKNESS = 0.02  # m, of the floor as drawn
 MARGIN = 4.0  # m, of the floor around all there is
 REFERENCE, OPACITY = "#2f6fb0", 0.45
-APART = 0.02  # m: a reference that is nearer to the vehicle is not shown
+MIN_OFFSET = 0.02  # m: a reference that is nearer to the vehicle is not shown
 PER_NEWTON, WIDTH, TEXT_HEIGHT = 0.22, 0.05, 0.2  # m/N and m: of the arrow of a push, and of its words
-ABOVE = np.array([0.0, 0.0, TEXT_HEIGHT])  # m
-FAINTEST = 0.05  # N
+LABEL_OFFSET = np.array([0.0, 0.0, TEXT_HEIGHT])  # m
+MIN_FORCE = 0.05  # N
 
 
 def quaternion_from(R: Array) -> tuple[float, float, float, float]:
@@ -115,13 +115,13 @@ def still(types: MessageTypes, scene: Mapping[str, Any], vehicle: Vehicle) -> ob
     world = MarkerWriter(types, WORLD, "surroundings", locked=True)
     made = [body.shape(i, shape) for i, shape in enumerate(vehicle_shapes(vehicle, solid=False))]
     low, high = _around(scene)
-    floor = np.array([*(low + high) / 2.0, scene["floor"] - THICK / 2.0])
+    floor = np.array([*(low + high) / 2.0, scene["floor"] - FLOOR_THICKNESS / 2.0])
     shapes = [
-        VisualShape("floor", "box", (*(high - low).tolist(), THICK), floor, color=GROUND),
+        VisualShape("floor", "box", (*(high - low).tolist(), FLOOR_THICKNESS), floor, color=GROUND),
         *map(wall_shape, scene["walls"]),
     ]
     made += [world.shape(i, shape) for i, shape in enumerate(shapes)]
-    made.append(world.lines(len(shapes), _grid(low, high, scene["floor"] + THICK / 10.0), LINE, 0.01))
+    made.append(world.lines(len(shapes), _grid(low, high, scene["floor"] + FLOOR_THICKNESS / 10.0), LINE, 0.01))
     return types[MARKERS](markers=made)
 
 
@@ -165,20 +165,20 @@ class PushMarkers:
         """An arrow from where the push acts, and how strong it is."""
         force = channels["push_force"][0]
         size = float(np.linalg.norm(force))
-        if not size > FAINTEST:
+        if not size > MIN_FORCE:
             return [self._push.nothing(0), self._push.nothing(1)]
         attitude = channels["attitude"]
         start = to_world(attitude, points_of(channels["push_force"], channels["push_moment"], attitude))[0]
         end = start + PER_NEWTON * force
         return [
             self._push.arrow(0, stamp, start, end, PUSH_COLOR, WIDTH),
-            self._push.text(1, stamp, end + ABOVE, f"{size:.1f} N", PUSH_COLOR, TEXT_HEIGHT),
+            self._push.text(1, stamp, end + LABEL_OFFSET, f"{size:.1f} N", PUSH_COLOR, TEXT_HEIGHT),
         ]
 
     def _reference(self, channels: Mapping[str, Array], stamp: int) -> list[Any]:
         """The vehicle's outline where it is to be."""
         place, here = channels["reference_position"], channels["position"]
-        if not np.linalg.norm(place - here) > APART:
+        if not np.linalg.norm(place - here) > MIN_OFFSET:
             return [self._ghost.nothing(i) for i in range(len(self._shapes))]
         R = to_world(np.repeat(quaternions(channels["reference_euler"][:1]), 3, axis=0), np.eye(3)).T
         there = [s._replace(position=place[0] + R @ s.position, axes=R @ s.axes) for s in self._shapes]

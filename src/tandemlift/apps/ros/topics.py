@@ -36,7 +36,7 @@ CLOCK = OtherTopic(
     "/clock", "rosgraph_msgs/Clock", "stamp of each sample, for nodes with `use_sim_time`; only in ROS 2", ()
 )
 ONLY_LIVE = (FLOWN, ASKED, STILL, MOVING, ROBOT, CLOCK)
-SHOWN, APART = 60.0, 0.2  # s of a path that is shown, and between its points
+PATH_SPAN, PATH_SPACING = 60.0, 0.2  # s of a path that is shown, and between its points
 
 
 class SampleTopic(NamedTuple):
@@ -168,7 +168,7 @@ class PathTopic:
     def __init__(self, types: MessageTypes, channel: TopicPublisher) -> None:
         self._Path, self._header, self._channel = types[PATH], types.headers(WORLD), channel
         self._make = message_maker(types, Topic("", POSE, WORLD, np.zeros((0, 7))))
-        self._poses: deque[Any] = deque(maxlen=round(SHOWN / APART))
+        self._poses: deque[Any] = deque(maxlen=round(PATH_SPAN / PATH_SPACING))
 
     def extend(self, stamp: int, pose: list[float]) -> None:
         """Add a pose, and publish them all if there is a subscriber."""

@@ -15,7 +15,7 @@ from tandemlift.core.errors import InputError
 NOTEBOOK, SCRIPT = ".ipynb", ".py"
 ARCHIVES = (".zip", ".7z", ".rar", ".tar", ".gz", ".tgz")
 LEFT_OUT = {"page", "check", "look"}  # tags of cells that grading does not run
-LARGEST = 64 << 20  # bytes of a file
+MAX_BYTES = 64 << 20  # bytes of a file
 
 
 class Notebook(NamedTuple):
@@ -114,8 +114,8 @@ def _read(path: Path) -> tuple[str, list[tuple[str, str]]]:
     try:
         if not path.is_file():
             raise InputError("is no file")
-        if path.stat().st_size > LARGEST:
-            raise InputError(f"has more than {LARGEST >> 20} MiB")
+        if path.stat().st_size > MAX_BYTES:
+            raise InputError(f"has more than {MAX_BYTES >> 20} MiB")
         text = path.read_text("utf-8")
         if path.suffix == SCRIPT:
             return path.stem, [(f"file {path.name}", text)]

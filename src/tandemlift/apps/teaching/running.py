@@ -31,7 +31,7 @@ from tandemlift.apps.teaching.hand_ins import NOTEBOOK, Notebook, cells_of
 from tandemlift.core.errors import InputError
 
 SOLUTIONS = "solutions"  # the folder that no answer may read
-LEAST, MOST = 512 << 20, 8 << 30  # bytes of memory of each process of a notebook
+MIN_MEMORY, MAX_MEMORY = 512 << 20, 8 << 30  # bytes of memory of each process of a notebook
 FILE = 1 << 30  # bytes that a file of a notebook may have
 HEARD, HINT = 1 << 20, 2000  # bytes that a notebook may send; characters of a hint
 PATIENCE = 10.0  # s, for a watcher to end what it watches
@@ -51,8 +51,8 @@ def shares(has: int | None = None, processors: int = os.cpu_count() or 1) -> tup
         for file in CONTAINERS:
             with contextlib.suppress(OSError, ValueError):  # there is no such file, or no limit
                 has = min(has, int(Path(file).read_text("utf-8")))
-    at_once = max(1, min(processors, has * 3 // 4 // LEAST))
-    return at_once, min(MOST, has * 3 // 4 // at_once)
+    at_once = max(1, min(processors, has * 3 // 4 // MIN_MEMORY))
+    return at_once, min(MAX_MEMORY, has * 3 // 4 // at_once)
 
 
 class _Forbidden(BaseException):

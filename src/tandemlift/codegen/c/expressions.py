@@ -10,7 +10,7 @@ import numpy as np
 
 EPSILON = 2.220446049250313e-16  # of a double; in single precision, that of a float stands in its place
 ROUNDS = 6755399441055744.0, 12582912.0  # adding it rounds to whole numbers: 1.5 · 2⁵², for a float 1.5 · 2²³
-SMALLEST, LARGEST = float(np.finfo(np.float32).tiny), float(np.finfo(np.float32).max)
+FLOAT_MIN, FLOAT_MAX = float(np.finfo(np.float32).tiny), float(np.finfo(np.float32).max)
 
 
 def literal(value: Any, kind: str, real: str) -> str:
@@ -48,7 +48,7 @@ def single(x: float) -> str:
     if abs(x) == ROUNDS[0]:
         x = math.copysign(ROUNDS[1], x)
     if x:
-        x = math.copysign(min(max(abs(x), SMALLEST), LARGEST), x)
+        x = math.copysign(min(max(abs(x), FLOAT_MIN), FLOAT_MAX), x)
     text = str(np.float32(x))
     return text if any(c in text for c in ".e") else text + ".0"
 

@@ -27,7 +27,7 @@ from tandemlift.core.files import __version__
 
 TEXTS = files("tandemlift") / "data" / "c"
 PARTS = ("pilot", "flight", "pilot_prepare", "flight_prepare")
-AROUND = ("helpers.c", "single.c", *(f"{part}.{end}" for part in PARTS for end in "ch"))  # texts of the files with laws
+PIECES = ("helpers.c", "single.c", *(f"{part}.{end}" for part in PARTS for end in "ch"))  # texts of the files with laws
 HASH = "/*@HASH@*/"  # stays in texts until all of them are there
 GENERATED = frozenset(["exact_solve", "solve", "GUSTS", "LEGS", "PUSHES", "WALLS"])  # further names at file scope
 BLOCK = re.compile(r"^ *//if (\w+)\n(.*?)^ *//end \1\n", re.MULTILINE | re.DOTALL)
@@ -125,7 +125,7 @@ class Unit:
 @cache
 def text_words() -> frozenset[str]:
     """All words of the code around laws: what is defined there is no name for a user's law or class."""
-    texts = "\n".join((TEXTS / name).read_text("utf-8") for name in AROUND)
+    texts = "\n".join((TEXTS / name).read_text("utf-8") for name in PIECES)
     code = re.sub(r"/\*.*?\*/", " ", re.sub(r"/\*@\w+@\*/", " ", texts), flags=re.DOTALL)
     return GENERATED.union(UNCALLED.split(), re.findall(r"\b(?:mission_)?([A-Za-z]\w*)", code))
 

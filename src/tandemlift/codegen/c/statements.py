@@ -19,7 +19,7 @@ from tandemlift.codegen.c.variables import Group, Variables
 from tandemlift.compiler.tracer import Graph
 from tandemlift.compiler.tracer.structured import as_symbol, calls_in, is_nested, nodes_of, numbers_in
 
-FEW = 4  # numbers of a struct whose members need no names where it is written
+UNNAMED_MEMBERS = 4  # numbers of a struct whose members need no names where it is written
 
 
 class StructVariable(NamedTuple):
@@ -232,7 +232,7 @@ class Statements:
         for name, part in parts_of(like):
             size = len(list(numbers_in(part)))
             text = self._member(part, nodes[first : first + size])
-            texts.append(text if struct.is_set or struct.size <= FEW else f".{name} = {text}")
+            texts.append(text if struct.is_set or struct.size <= UNNAMED_MEMBERS else f".{name} = {text}")
             first += size
         inner = ", ".join(texts)
         return f"{{{{{inner}}}}}" if struct.is_set else f"{{{inner}}}"

@@ -12,8 +12,8 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 WIDTH = 110
-SHORT = 50  # characters in braces that stay together
-LONGEST = 240  # lines of a function
+BRACE_LENGTH = 50  # characters in braces that stay together
+MAX_LINES = 240  # lines of a function
 PART = 180  # lines of a part of a longer one
 BEGIN, END = "\x01", "\x02"
 TOKEN = re.compile(f"{BEGIN}(\\w+){END}")
@@ -62,7 +62,7 @@ def wrapped(line: str, indent: str = "    ") -> str:
     if len(indent + line) <= WIDTH:
         return indent + line.replace(JOINED, " ")
     found = BRACES.fullmatch(line)
-    if not found or len(found[2]) < SHORT or len(indent + found[1]) > WIDTH or not _is_balanced(found[2]):
+    if not found or len(found[2]) < BRACE_LENGTH or len(indent + found[1]) > WIDTH or not _is_balanced(found[2]):
         deeper = indent + "    "
         text = textwrap.fill(line, WIDTH, initial_indent=indent, subsequent_indent=deeper, **AS_THEY_ARE)
         return text.replace(JOINED, " ")
@@ -131,7 +131,7 @@ def function(head: FunctionHead, statements: Sequence[Statement], last: str) -> 
     kept = without_unused(statements, last)
     end = Statement("raw", (), last)
     lines = [line for s in [*kept, end] for line in _lines(s, set())]
-    if len(lines) <= LONGEST:
+    if len(lines) <= MAX_LINES:
         return "\n".join([head.text, "{", *[line for line in lines if line.strip()], "}", ""])
     return _in_parts(head, kept, end)
 

@@ -10,7 +10,7 @@ from tandemlift.codegen.c.types import Signature
 from tandemlift.compiler.tracer import LEAVES, Graph
 from tandemlift.compiler.tracer.structured import is_nested, nodes_of
 
-LONGEST = 12  # operations in one expression
+MAX_OPERATIONS = 12  # operations in one expression
 
 
 class Group(NamedTuple):
@@ -110,10 +110,10 @@ class Variables:
             if op in LEAVES:
                 continue
             if op.startswith("call "):
-                weight = LONGEST // 2
+                weight = MAX_OPERATIONS // 2
             for argument in g.args[node]:
                 weight += self._weights.get(argument, 0) + (not op.startswith("out "))
-            heavy = weight > LONGEST or (self._uses[node] > 1 and not self._is_cheap(node))
+            heavy = weight > MAX_OPERATIONS or (self._uses[node] > 1 and not self._is_cheap(node))
             if (self.is_operation(node) or self._is_scalar_result(node)) and (heavy or node in self.local):
                 named.add(node)
                 weight = 0

@@ -23,7 +23,7 @@ from tandemlift.parts.pilot.pilot import PilotMemory, PilotParameters
 from tandemlift.parts.rotors.allocation import allocate
 from tandemlift.parts.rotors.rotors import hover_thrusts
 
-STILL = Reference(Trajectory(ZERO, ZERO, ZERO), 0.0)
+HOVER_REFERENCE = Reference(Trajectory(ZERO, ZERO, ZERO), 0.0)
 SURFACE, REACHING = sliding_surface, reaching_control  # the law of S, and the law of S that switches
 
 
@@ -81,7 +81,7 @@ def commanded_thrusts(pilot: PilotParameters, memory: PilotMemory) -> Callable[[
 
     def thrusts(x: Sequence[Any]) -> list[Any]:
         state = State(Vec3(*x[0:3]), Vec3(*x[3:6]), quaternion_from_euler(Vec3(*x[6:9])), Vec3(*x[9:12]))
-        command, _ = control(gains, before, Measured(state, ZERO), STILL)
+        command, _ = control(gains, before, Measured(state, ZERO), HOVER_REFERENCE)
         return list(allocate(pilot.allocation, command.wrench))
 
     return thrusts

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 MM = 1.0 / 25.4  # in
 DOTS = 300.0  # of a PNG in an inch
 FULL_HD = 1920  # pixels across a slide
-ROOMY = 4.4  # in: the height of a figure for a page that a slide has room for
+MAX_SLIDE_HEIGHT = 4.4  # in: the height of a figure for a page that a slide has room for
 
 
 class Palette(NamedTuple):
@@ -110,7 +110,7 @@ class FigureStyle(NamedTuple):
         """
         if self.height is None:
             return width, height
-        scale = max(1.0, height / ROOMY)
+        scale = max(1.0, height / MAX_SLIDE_HEIGHT)
         return scale * self.page, scale * self.height
 
     def dots(self, width: float) -> float:

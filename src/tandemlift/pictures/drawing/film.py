@@ -29,13 +29,13 @@ from tandemlift.pictures.drawing.video import check_size, ffmpeg, write_mp4
 PICTURE_OPTIONS, ANIMATION_OPTIONS = ("--time",), ("--from", "--to", "--fps", "--speed")
 ANGLE = np.radians(30.0)  # of view, vertical [rad]
 SIZES = {".png": (1280, 720), ".gif": (640, 360), ".mp4": (1280, 720)}  # pixels
-LONGEST = 20.0  # s, length of an animation: a longer flight is shown faster, unless a speed is given
+MAX_TIME = 20.0  # s, length of an animation: a longer flight is shown faster, unless a speed is given
 PALETTE = ((Image.Quantize.MEDIANCUT, 160), (Image.Quantize.MAXCOVERAGE, 90))  # for fine shades, and for rare colours
 CLOSE, LOWER = 3.7, 0.07  # distance / vehicle's reach; offset of the target below the vehicle / distance
 FILLED = 0.94  # fraction of the picture that the whole path fills
 FOLLOWING = 0.6  # s, window over which a following camera smooths the path
 INK = (60, 68, 78)
-LARGEST, MOST = 3840 * 2160, 3000  # largest number of pixels of a picture, and of pictures of an animation
+PIXELS, COUNT = 3840 * 2160, 3000  # largest number of pixels of a picture, and of pictures of an animation
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ class Film:
     """Pictures of a flight from one camera."""
 
     def __init__(self, flight: Flight, camera: Camera, size: tuple[int, int]) -> None:
-        if not (min(size) >= 16 and size[0] * size[1] <= LARGEST):
+        if not (min(size) >= 16 and size[0] * size[1] <= PIXELS):
             raise InputError(f"size {size[0]}x{size[1]} must be at least 16x16 and of at most 3840x2160 pixels")
         self.stage, self._camera = FlightStage(flight), camera
         self._size, self._studio = size, Studio(self.stage, size)
@@ -181,14 +181,14 @@ class Animation:
         end = float(stage.time[-1]) if shot.end is None else stage.checked_time("to", shot.end)
         if end < start:
             raise InputError(f"an animation from {start:g} s to {end:g} s has its end before its start")
-        speed = max(1.0, float(np.ceil((end - start) / LONGEST))) if shot.speed is None else shot.speed
+        speed = max(1.0, float(np.ceil((end - start) / MAX_TIME))) if shot.speed is None else shot.speed
         if not (1.0 <= shot.fps <= 50.0 and 0.001 <= speed <= 1000.0):
             raise InputError(f"fps {shot.fps:g} must be from 1 to 50, and speed {speed:g} from 0.001 to 1000")
         self.interval = 1.0 / shot.fps if kind == ".mp4" else round(100.0 / shot.fps) / 100.0  # as a GIF counts
         step = speed * self.interval
         count = 1 + int((end - start) / step + 1e-9)
-        if count > MOST:
-            raise InputError(f"{count} pictures are more than the {MOST} of one animation: raise speed, or lower fps")
+        if count > COUNT:
+            raise InputError(f"{count} pictures are more than the {COUNT} of one animation: raise speed, or lower fps")
         self.times = start + np.arange(count) * step
         self.note = "" if speed == 1.0 else f" (× {speed:g})"
 

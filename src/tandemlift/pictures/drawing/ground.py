@@ -11,9 +11,9 @@ from tandemlift.core.types import Array
 from tandemlift.engines.models.visuals import SUN
 
 FLOOR, LINE, HAZE, ZENITH = "#d7d9dc", "#a3abb3", "#e9edf1", "#a9c4de"
-FAR = 9.0  # distance at which haze hides half of the floor / distance of the vehicle
+HAZE_DISTANCE = 9.0  # distance at which haze hides half of the floor / distance of the vehicle
 EDGE, GRID = 120.0, 14.0  # radius of the floor, and of its grid / distance of the vehicle
-FADES = 6.0  # pixels between two lines, below which a grid begins to fade
+FADE_PIXELS = 6.0  # pixels between two lines, below which a grid begins to fade
 RINGS, SIDES, PIECES = 40, 96, 24  # of the floor: rings, sectors; of a line of the grid
 DOME = 1.5  # radius of the sky / radius of the floor
 SLOPE = 2.2  # gradient of the sky's colour over the sine of the elevation
@@ -52,7 +52,7 @@ def rgb(color: str) -> Array:
 
 def hazy(color: str, points: Array, view: View) -> Array:
     """A colour (n, 3) of the floor as it is seen at points (n, 3), 0 to 255."""
-    way = np.linalg.norm(points - view.eye, axis=1) / (FAR * view.distance)
+    way = np.linalg.norm(points - view.eye, axis=1) / (HAZE_DISTANCE * view.distance)
     return rgb(HAZE) + (rgb(color) - rgb(HAZE)) * np.exp2(-(way**2))[:, None]
 
 
@@ -85,7 +85,7 @@ def grid(view: View, step: float, height: float) -> Painted:
     lines = np.concatenate(points)
     away = np.linalg.norm(lines - view.eye, axis=1)
     spaced = view.focal * step * (view.eye[2] - height) / away**2  # pixels between two lines that lie across
-    strength = np.clip(spaced / FADES, 0.0, 1.0)[:, None]
+    strength = np.clip(spaced / FADE_PIXELS, 0.0, 1.0)[:, None]
     colors = hazy(FLOOR, lines, view) * (1.0 - strength) + hazy(LINE, lines, view) * strength
     cells = np.column_stack([np.full(len(lines) // 2, 2), np.arange(len(lines)).reshape(-1, 2)]).ravel()
     return Painted(lines, cells, colors)

@@ -29,11 +29,11 @@ from tandemlift.pictures.drawing.style import (
     styled,
 )
 
-LINEAR = 0.1  # 1/s, within which the axes of the poles are linear
+LINEAR_SPAN = 0.1  # 1/s, within which the axes of the poles are linear
 RATIOS = (0.1, 0.3, 0.7)  # damping ratios that are drawn
 ROOM = 2.0  # by how much the axes go beyond the poles
-LOWEST, HIGHEST, POINTS = 0.02, 0.45, 300  # Hz, of the sample rate; points of a drawn response
-SMALLEST = 1e-12  # of the largest response at a frequency: a smaller one is rounding of the model, and not drawn
+LOWEST_FREQUENCY, HIGHEST_FREQUENCY, POINTS = 0.02, 0.45, 300  # Hz, of the sample rate; points of a drawn response
+RESPONSE_FLOOR = 1e-12  # of the largest response at a frequency: a smaller one is rounding of the model, and not drawn
 AXES = {"roll": "x", "pitch": "y", "yaw": "z"}
 NAME = re.compile(r"(\w+?)_([a-z]+_\d+|[^_]+)")
 
@@ -66,11 +66,11 @@ def response_of(model: LinearModel, input: str, output: str) -> Response:
         [i for i, v in enumerate(variables) if split(v.name)[0] == group]
         for variables, group in ((model.inputs, input), (model.outputs, output))
     )
-    frequencies = np.geomspace(LOWEST, HIGHEST / model.step, POINTS)
+    frequencies = np.geomspace(LOWEST_FREQUENCY, HIGHEST_FREQUENCY / model.step, POINTS)
     responses = frequency_response(model, frequencies)[:, rows][:, :, columns]
     # coupling that symmetry forbids is as small as the rounding of the flight's state, next to what is allowed
     sizes = np.abs(responses)
-    responses[sizes <= SMALLEST * sizes.max(axis=(1, 2), keepdims=True)] = np.nan
+    responses[sizes <= RESPONSE_FLOOR * sizes.max(axis=(1, 2), keepdims=True)] = np.nan
     names = [[split(v[i].name)[1] for i in at] for v, at in ((model.inputs, columns), (model.outputs, rows))]
     moved = {
         (f"{a} → {b}".replace("_", " "), AXES.get(a, a) == AXES.get(b, b)): responses[:, i, j]
@@ -109,9 +109,9 @@ def draw(title: str, poles: Sequence[complex], response: Response) -> Figure:
 
 def _poles(axes: Axes, s: NDArray[np.complexfloating]) -> None:
     far = ROOM * max(float(np.abs(s).max(initial=1.0)), 1.0)
-    axes.set_xscale("symlog", linthresh=LINEAR)
-    axes.set_yscale("symlog", linthresh=LINEAR)
-    radius = np.geomspace(1e-3 * LINEAR, far, 200)
+    axes.set_xscale("symlog", linthresh=LINEAR_SPAN)
+    axes.set_yscale("symlog", linthresh=LINEAR_SPAN)
+    radius = np.geomspace(1e-3 * LINEAR_SPAN, far, 200)
     for ratio in RATIOS:
         x, y = -ratio * radius, np.sqrt(1.0 - ratio * ratio) * radius
         axes.plot(x, y, color=PALE, lw=0.7)
@@ -123,7 +123,7 @@ def _poles(axes: Axes, s: NDArray[np.complexfloating]) -> None:
         chosen = s[(s.real < 0.0) == stable]
         for sign in (1.0, -1.0):
             axes.plot(chosen.real, sign * chosen.imag, "x", color=colour, ms=4.5, mew=1.0)
-    axes.set_xlim(-far, LINEAR if not np.any(s.real > 0.0) else far)
+    axes.set_xlim(-far, LINEAR_SPAN if not np.any(s.real > 0.0) else far)
     axes.set_ylim(-far, far)
     axes.set_xlabel("Re s [1/s]")
     axes.set_ylabel("Im s [rad/s]")

@@ -18,10 +18,10 @@ from tandemlift.core.types import Array
 from tandemlift.flight.channels import column_names
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.drawing.panels import (
-    FEW,
-    HIGH,
-    LOW,
-    MOST,
+    MAX_QUADROTORS,
+    SHORT_ROW,
+    TALL_ROW,
+    TALL_ROW_COUNT,
     fit,
     is_disturbed,
     legend_above,
@@ -35,7 +35,7 @@ Flights = Mapping[str, Flight]
 Overlay = Callable[[Flights], Figure]
 """Draws several flights, by name, over each other."""
 
-LEAST = {"N": 0.2, "°": 0.2, "°/s": 0.2}  # least span of the axis of a unit; of others 0.02
+MIN_SPANS = {"N": 0.2, "°": 0.2, "°/s": 0.2}  # least span of the axis of a unit; of others 0.02
 ROTORS, AXES = 4, 3  # panels side by side: of the rotors of a quadrotor, of a vector
 COLUMNS = 12  # of the grid, which one to four panels fill
 CUT = "*"  # marks a panel that does not show the whole start
@@ -82,12 +82,12 @@ def _rows(flights: Flights, channel: str) -> list[list[Panel]]:
         for i, title in enumerate(titles)
     ]
     across = AXES if not by_rotor and len(panels) % AXES == 0 else min(len(panels), ROTORS)
-    return [panels[i : i + across] for i in range(0, len(panels), across)][:MOST]
+    return [panels[i : i + across] for i in range(0, len(panels), across)][:MAX_QUADROTORS]
 
 
 def _draw(ax: Axes, panel: Panel) -> bool:
     """Draw the lines of a panel; whether it is scaled to what follows the first second."""
-    least = LEAST.get(panel.unit, 0.02)
+    least = MIN_SPANS.get(panel.unit, 0.02)
     for place, flight, values in panel.series:
         line(ax, flight.time, values, **look(place))
     scale = [one for one in panel.series if not one[1].ending] or panel.series
@@ -105,7 +105,7 @@ def over_time(*channels: str) -> Overlay:
     def draw(flights: Flights) -> Figure:
         rows = [row for channel in channels for row in _rows(flights, channel)]
         longest = max(flights.values(), key=lambda flight: flight.time[-1:].sum())
-        figure = page_figure(0.6 + len(rows) * (HIGH if len(rows) <= FEW else LOW))
+        figure = page_figure(0.6 + len(rows) * (TALL_ROW if len(rows) <= TALL_ROW_COUNT else SHORT_ROW))
         grid, first, cut = figure.add_gridspec(len(rows), COLUMNS), [], False
         for i, row in enumerate(rows):
             wide, last = COLUMNS // len(row), i + 1 == len(rows) or len(rows[i + 1]) != len(row)

@@ -20,14 +20,14 @@ Mask = NDArray[np.bool_]
 Indices = NDArray[np.intp]
 
 BUCKETS = 1200  # more than the distinguishable dots of a printed column
-DRAWABLE = 1e30  # beyond this a number says "diverged", and the drawing library overflows
+MAX_VALUE = 1e30  # beyond this a number says "diverged", and the drawing library overflows
 ROUNDING = 1e-9  # m, rad, m/s: errors below this are the arithmetic's, not the pilot's
 
 
 def drawable(values: Array) -> Array:
     """The values with NaN, which leaves a gap in a line, in place of values that cannot be drawn."""
     with np.errstate(invalid="ignore"):
-        return np.where(np.abs(values) < DRAWABLE, values, np.nan)
+        return np.where(np.abs(values) < MAX_VALUE, values, np.nan)
 
 
 def decimate(values: Array, buckets: int = BUCKETS) -> Indices:
@@ -74,7 +74,7 @@ def intervals(time: Array, active: Mask) -> Array:
 
 
 LEGEND = "outside upper center"
-RELATIVE = 2e-3  # of the largest value: the least span of its axis, so that tick labels stay short
+MIN_SPAN_RATIO = 2e-3  # of the largest value: the least span of its axis, so that tick labels stay short
 
 
 def line(ax: Axes, time: Array, values: Array, **look: Any) -> Line2D:
@@ -130,7 +130,7 @@ def value_ticks() -> MaxNLocator:
 def fit(ax: Axes, *values: Array, least: float) -> None:
     """Set the value axis to the values with a margin, spanning at least `least`, so that rounding is not blown up."""
     low, high = extent(*values)
-    middle, half = (low + high) / 2.0, max((high - low) * 1.12, least, RELATIVE * max(-low, high)) / 2.0
+    middle, half = (low + high) / 2.0, max((high - low) * 1.12, least, MIN_SPAN_RATIO * max(-low, high)) / 2.0
     ax.set_ylim(middle - half, middle + half)
     ax.yaxis.set_major_locator(value_ticks())
 
@@ -155,9 +155,9 @@ def legend_above(figure: Figure, handles: Sequence[Any], names: Sequence[str], p
     return 0.0
 
 
-MOST = 8  # quadrotors that fit on a page
-HIGH, LOW = 1.3, 0.95  # in: of a row of panels where there are few, and where there are many
-FEW = 4  # rows
+MAX_QUADROTORS = 8  # quadrotors that fit on a page
+TALL_ROW, SHORT_ROW = 1.3, 0.95  # in: of a row of panels where there are few, and where there are many
+TALL_ROW_COUNT = 4  # rows
 
 
 def fleet_figure(count: int, around: float) -> tuple[Figure, int]:
@@ -165,8 +165,8 @@ def fleet_figure(count: int, around: float) -> tuple[Figure, int]:
 
     Where not all quadrotors have a row, it says so.
     """
-    rows = min(count, MOST)
-    height = around + max(LOW * rows, HIGH * min(rows, FEW))
+    rows = min(count, MAX_QUADROTORS)
+    height = around + max(SHORT_ROW * rows, TALL_ROW * min(rows, TALL_ROW_COUNT))
     figure: StyledFigure = page_figure(height)
     if rows < count:
         figure.supxlabel(f"quadrotors 1 to {rows} of {count}", x=0.995, ha="right", fontsize=points(8))
@@ -174,8 +174,8 @@ def fleet_figure(count: int, around: float) -> tuple[Figure, int]:
 
 
 START = 1.0  # s, how long a start may be
-LONG = 5.0  # s, flights shorter than this are all start
-DISTURBED = 1.5  # times the span of what follows, from where the start is one of its own
+MIN_FLIGHT = 5.0  # s, flights shorter than this are all start
+START_RATIO = 1.5  # times the span of what follows, from where the start is one of its own
 
 
 def _span(values: Array) -> float:
@@ -186,7 +186,7 @@ def _span(values: Array) -> float:
 def is_disturbed(flight: Flight, values: Array, least: Sequence[float]) -> bool:
     """Whether any of the values (T, n) spans far more in the first second than afterwards; `least`: (n) that count."""
     time = scaling(flight, flight.time)
-    if not len(time) or time[-1] < LONG:
+    if not len(time) or time[-1] < MIN_FLIGHT:
         return False
     spans = ((_span(scaling(flight, column)), _span(scaling(flight, column, late=True))) for column in values.T)
-    return any(whole > DISTURBED * max(after, size) for (whole, after), size in zip(spans, least, strict=True))
+    return any(whole > START_RATIO * max(after, size) for (whole, after), size in zip(spans, least, strict=True))

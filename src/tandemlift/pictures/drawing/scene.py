@@ -25,10 +25,10 @@ UP = np.array([-np.sin(ELEVATION) * np.cos(AZIMUTH), -np.sin(ELEVATION) * np.sin
 NEAR = np.cross(RIGHT, UP)
 
 CELLS = 14  # at most, along the longest side
-WIDE, HIGH = 0.62, 1.1  # of a digit's size: room that it takes across and along, with what is around it
-TOUCHING = np.array([0.05, 0.3, 0.3])  # of a cell: smaller excesses over the box do not lengthen it
+DIGIT_WIDTH, DIGIT_HEIGHT = 0.62, 1.1  # of a digit's size: room that it takes across and along, with what is around it
+CELL_TOLERANCE = np.array([0.05, 0.3, 0.3])  # of a cell: smaller excesses over the box do not lengthen it
 MOST_EXCESS = 0.3  # m, of these
-TALLEST = 5.2  # in
+MAX_HEIGHT = 5.2  # in
 ROOM = np.array([0.4, 0.3, 0.5, 0.36])  # in, for labels around text of `TEXT`: left, bottom, right, top
 
 
@@ -66,7 +66,7 @@ class Scene3D:
         style = current_style()
         around = ROOM * style.type / TEXT
         room = around[:2] + around[2:]
-        inner = (high - low) * min(([style.page, style.height or TALLEST] - room) / (high - low))
+        inner = (high - low) * min(([style.page, style.height or MAX_HEIGHT] - room) / (high - low))
         size = np.array([style.width_for(inner[0] + room[0]), style.height or inner[1] + room[1]])
         corner = (size - inner - room) / 2.0 + around[:2]
         self.figure = StyledFigure(size[0], size[1], layout=None)
@@ -121,7 +121,7 @@ class Scene3D:
         spots = on_paper(places)
         look: dict[str, Any] = {"textcoords": "offset points", "annotation_clip": False}
         apart = np.abs(spots[-1] - spots[0]) / max(len(spots) - 1, 1) * self._dots  # pt, from one number to the next
-        size = points(7.5) * np.array([WIDE * max(map(len, texts)), HIGH])
+        size = points(7.5) * np.array([DIGIT_WIDTH * max(map(len, texts)), DIGIT_HEIGHT])
         each = max(1, int(np.ceil(np.min(size / np.maximum(apart, 1e-9)) - 1e-9)))
         for text, spot in list(zip(texts, spots, strict=True))[::each]:
             self.axes.annotate(text, spot, offset, fontsize=points(7.5), ha=across, va=along, **look)
@@ -139,7 +139,7 @@ def _box(points: Array) -> tuple[float, Array]:
     low, high = points.min(axis=0), points.max(axis=0)
     longest = max(float((high - low).max()), 1e-3)
     cell = float(np.diff(MaxNLocator(CELLS, steps=[1, 2, 5, 10]).tick_values(0.0, longest))[0])
-    excess = np.minimum(TOUCHING, MOST_EXCESS / cell)
+    excess = np.minimum(CELL_TOLERANCE, MOST_EXCESS / cell)
     first = np.floor(low / cell + excess)
     last = np.maximum(np.ceil(high / cell - excess), first + 1.0)
     return cell, np.column_stack([first, last]) * cell

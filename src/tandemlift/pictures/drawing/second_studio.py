@@ -19,8 +19,8 @@ from typing import IO, Protocol
 
 from PIL import Image
 
-WORTH = 40  # pictures from which on a second process saves time: it needs that of twenty to start
-AHEAD = 12  # pictures that it may be ahead of the one that is shown
+MIN_PICTURES = 40  # pictures from which on a second process saves time: it needs that of twenty to start
+MAX_LEAD = 12  # pictures that it may be ahead of the one that is shown
 
 
 class Pictures(Protocol):
@@ -77,7 +77,7 @@ class _Shared:
 
 def drawn_by_two(pictures: Pictures, make: Callable[[], Pictures]) -> Iterator[Image.Image]:
     """All pictures in order, drawn here and by a second process if that saves time; `make`: how it makes them."""
-    if len(pictures) < WORTH or (os.cpu_count() or 1) < 2 or not sys.executable:
+    if len(pictures) < MIN_PICTURES or (os.cpu_count() or 1) < 2 or not sys.executable:
         yield from map(pictures.picture, range(len(pictures)))
         return
     shared, pipe = _Shared(len(pictures)), subprocess.PIPE
@@ -105,7 +105,7 @@ def _draw(requests: IO[bytes], answers: IO[bytes], make: bytes, size: tuple[int,
     bytes_of_one = 3 * size[0] * size[1]
     with suppress(OSError, ValueError):  # it has ended: what it has read is lost
         requests.write(make)
-    while (index := shared.take(AHEAD)) is not None:
+    while (index := shared.take(MAX_LEAD)) is not None:
         drawn = b""
         with suppress(OSError, ValueError):
             requests.write(b"%d\n" % index)

@@ -14,8 +14,8 @@ from tandemlift.flight.record import Flight
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion, world_z_in_body
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
-ARROW, SHORTEST = 0.9, 0.18  # m, length of the arrow for the strongest push of the flight, and for the faintest
-FAINTEST, WEAK = 0.03, 0.0015  # fractions of the strongest push, and of the weight: a push below is not drawn
+ARROW, STUB = 0.9, 0.18  # m, length of the arrow for the strongest push of the flight, and for the faintest
+RATIO, SHARE = 0.03, 0.0015  # fractions of the strongest push, and of the weight: a push below is not drawn
 
 
 class FlightStage:
@@ -45,7 +45,7 @@ class FlightStage:
         self._pushes, self._moments = flight["push_force"][sound], flight["push_moment"][sound]
         self._strongest = float(np.linalg.norm(self._pushes, axis=1).max())
         self.vehicle = Vehicle.from_mission(flight.mission)
-        self._faintest = max(FAINTEST * self._strongest, WEAK * GRAVITY * self.vehicle.mass)
+        self._faintest = max(RATIO * self._strongest, SHARE * GRAVITY * self.vehicle.mass)
         self.reach = max(float(np.linalg.norm(s.position)) + max(s.size) / 2.0 for s in vehicle_shapes(self.vehicle))
         self.floor = self._floor_of(flight.mission, self.vehicle)
         self.walls = flight.walls
@@ -107,7 +107,7 @@ class FlightStage:
         # the point nearest to the centre of mass on the force's line of action
         arm = np.cross(R.T @ force, self._at(time, self._moments)) / size**2
         start = self.position(time) + R @ arm
-        return start, start + max(ARROW * size / self._strongest, SHORTEST) * force / size
+        return start, start + max(ARROW * size / self._strongest, STUB) * force / size
 
 
 def _rotation(attitude: Array) -> Array:

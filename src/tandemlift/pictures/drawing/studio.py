@@ -32,7 +32,7 @@ PATH, AHEAD, FALL, FRAME = "#1f5fbf", "#9db7d6", "#8a9097", "#4d5a6b"  # flown, 
 SHADE = "#9a9fa6"
 NEAR = 0.05  # m, distance of the near clipping plane
 ROWS = 720  # of the picture for which widths of lines are given [pixels]
-FINE = 2  # a picture is drawn with so many times its pixels each way, and then reduced
+OVERSAMPLING = 2  # a picture is drawn with so many times its pixels each way, and then reduced
 SPINNING = 40.0  # rad/s, drawn speed of the blades; at the true speed they would alias
 SHAFT = 0.022  # m, radius of an arrow
 LAYER = 4e-4  # height of shadow, grid and path, one above the other, over the floor / distance of the vehicle
@@ -77,7 +77,7 @@ class Studio:
 
     def __init__(self, stage: FlightStage, size: tuple[int, int]) -> None:
         self._stage, self._size, self._pv = stage, size, pyvista()
-        self._plotter = self._pv.Plotter(off_screen=True, window_size=[FINE * n for n in size], lighting="none")
+        self._plotter = self._pv.Plotter(off_screen=True, window_size=[OVERSAMPLING * n for n in size], lighting="none")
         weakref.finalize(self, self._plotter.close)  # pyvista keeps a plotter, of tens of megabytes, until it is closed
         self._plotter.render_window.SetMultiSamples(0)  # FINE smooths the edges; both would take twice the time
         self._blend_in_order()
@@ -109,7 +109,7 @@ class Studio:
         camera.view_angle = 2.0 * np.degrees(np.arctan(height / 2.0 / view.focal))
         camera.clipping_range = (NEAR, 2.0 * ground.DOME * ground.EDGE * view.distance)
         self._plotter.render_window.Render()
-        return self._fine_picture().reduce(FINE).convert("RGB")
+        return self._fine_picture().reduce(OVERSAMPLING).convert("RGB")
 
     def _blend_in_order(self) -> None:
         """Draw what is farther first, so that each wall and disc is blended over what is behind it.
@@ -126,7 +126,7 @@ class Studio:
         """What the window shows, with `FINE` times the pixels each way; a screenshot would copy it twice more."""
         from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 
-        size, pixels = (FINE * self._size[0], FINE * self._size[1]), vtkUnsignedCharArray()
+        size, pixels = (OVERSAMPLING * self._size[0], OVERSAMPLING * self._size[1]), vtkUnsignedCharArray()
         self._plotter.render_window.GetRGBACharPixelData(0, 0, size[0] - 1, size[1] - 1, 1, pixels)
         return Image.frombuffer(
             "RGBX", size, self._pv.convert_array(pixels), "raw", "RGBX", 0, -1
@@ -225,7 +225,7 @@ class Studio:
 
     def _dots(self, width: float) -> float:
         """A width of a line in dots as they are drawn, from pixels of a picture of `ROWS` rows."""
-        return width * FINE * self._size[1] / ROWS
+        return width * OVERSAMPLING * self._size[1] / ROWS
 
 
 def _thinned(points: Array, apart: float) -> Array:

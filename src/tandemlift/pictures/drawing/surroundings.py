@@ -17,11 +17,11 @@ from tandemlift.pictures.drawing.scene import NEAR, Scene3D, on_paper
 from tandemlift.pictures.drawing.style import EDGE, GLASS
 from tandemlift.pictures.drawing.vehicle import body_to_world
 
-BEYOND = 0.15  # of the longest side of the displayed points: range around them in which walls are drawn
-TOUCHING = 1e-6  # m: a wall on the box's edge is in it
+RANGE_MARGIN = 0.15  # of the longest side of the displayed points: range around them in which walls are drawn
+EDGE_TOLERANCE = 1e-6  # m: a wall on the box's edge is in it
 PARTS = 4  # of a wall in a cell of the grid: each stands before the path or behind it
 OPACITY = 0.4
-BEHIND, BEFORE = 2.0, 42.0  # in the order of drawing, in which the path and all on it come between
+BACK_ORDER, FRONT_ORDER = 2.0, 42.0  # in the order of drawing, in which the path and all on it come between
 
 
 class WallOutline(NamedTuple):
@@ -49,7 +49,7 @@ def walls_in(tables: Sequence[Mapping[str, Any]], low: Array, high: Array) -> li
     found = []
     for table in map(WallTable.model_validate, tables):
         start, end = np.array(table.start), np.array(table.end)
-        shares = _cut(start, end, low[:2] - TOUCHING, high[:2] + TOUCHING)
+        shares = _cut(start, end, low[:2] - EDGE_TOLERANCE, high[:2] + EDGE_TOLERANCE)
         if shares is not None and table.top > low[2]:
             points = start + np.outer(shares, end - start)
             rim = np.column_stack([points, np.full(2, min(table.top, high[2]))])
@@ -60,7 +60,7 @@ def walls_in(tables: Sequence[Mapping[str, Any]], low: Array, high: Array) -> li
 def walls_near(tables: Sequence[Mapping[str, Any]], around: Array) -> list[WallOutline]:
     """The walls of a mission as far as they are near points (n, 3) [m, world axes]."""
     low, high = around.min(axis=0), around.max(axis=0)
-    room = BEYOND * float((high - low).max())
+    room = RANGE_MARGIN * float((high - low).max())
     return walls_in(tables, low - room, high + room)
 
 
@@ -85,7 +85,7 @@ def draw_walls(scene: Scene3D, tables: Sequence[Mapping[str, Any]], path: Array)
     for wall in walls:
         for nearer, rim in _stretches(wall, thin, scene.cell):
             foot = np.column_stack([rim[:, :2], np.full(2, floor)])
-            order = BEFORE if nearer else BEHIND
+            order = FRONT_ORDER if nearer else BACK_ORDER
             scene.fill(np.concatenate([rim, foot[::-1]]), facecolor=GLASS, alpha=OPACITY, zorder=order, gid="wall")
             sides = [(rim[i], foot[i]) for i in (0, 1) if wall.ends[i] and np.array_equal(rim[i], wall.rim[i])]
             lines = list(on_paper([(rim[0], rim[1]), (foot[0], foot[1]), *sides]))

@@ -38,12 +38,12 @@ CAPTION = Caption(
 IN_FLIGHTS = with_walls
 OVERLAY = None  # vehicles and arrows of several flights would hide each other
 
-ROUND = 1.2  # m, shown around the path and the vehicle
+MARGIN = 1.2  # m, shown around the path and the vehicle
 SPACING = 1.1  # vehicle spans from one vehicle drawn to the next
-MOST, TALLEST, LEAST = 14, 5.0, 1.5  # vehicles; in, of the view from above
-BELOW, AROUND = 1.25, 0.75  # in: height of the lower panel, and of what is around them
+MAX_VEHICLES, MAX_HEIGHT, MIN_HEIGHT = 14, 5.0, 1.5  # vehicles; in, of the view from above
+LOWER_HEIGHT, FRAME_HEIGHT = 1.25, 0.75  # in: height of the lower panel, and of what is around them
 NEWTON = 0.75  # m of the view, for a newton
-WEAK = 0.05  # N: a weaker push is not drawn
+MIN_PUSH = 0.05  # N: a weaker push is not drawn
 BEAM: dict[str, Any] = {"color": VERMILLION, "lw": 1.0, "ls": (0, (5, 1.5))}
 
 
@@ -52,7 +52,7 @@ def instants(flight: Flight) -> list[int]:
     path = flight["position"][:, :2]
     way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
     span = float(np.ptp(skeleton(flight.vehicle).points, axis=0).max())
-    count = min(MOST, 2 + int(way[-1] / (SPACING * span)))
+    count = min(MAX_VEHICLES, 2 + int(way[-1] / (SPACING * span)))
     return sorted({0, *map(int, np.searchsorted(way, np.linspace(0.0, way[-1], count)[1:-1])), len(path) - 1})
 
 
@@ -85,7 +85,7 @@ def arrows(flight: Flight, shown: list[int]) -> list[tuple[Array, Array]]:
     if held is None:
         return [(p.point[:2], p.force[:2]) for p in pushes(flight)]
     found = [(held[k, :2], flight["push_force"][k, :2]) for k in shown]
-    return [(point, force) for point, force in found if np.linalg.norm(force) > WEAK]
+    return [(point, force) for point, force in found if np.linalg.norm(force) > MIN_PUSH]
 
 
 def _pushes(ax: Axes, found: list[tuple[Array, Array]]) -> None:
@@ -120,7 +120,7 @@ def _bounds(flight: Flight, shown: list[int]) -> Array:
     body = skeleton(flight.vehicle)
     seen = [body.placed(flight["position"][k], flight["attitude"][k]).points[:, :2] for k in shown]
     points = np.concatenate([*seen, flight["position"][:, :2]])
-    return np.array([points.min(axis=0) - ROUND, points.max(axis=0) + ROUND])
+    return np.array([points.min(axis=0) - MARGIN, points.max(axis=0) + MARGIN])
 
 
 def _from_above(ax: Axes, flight: Flight, shown: list[int], found: list[tuple[Array, Array]]) -> None:
@@ -169,9 +169,9 @@ def draw(flight: Flight) -> Figure:
     shown = instants(flight)
     found, (low, high) = arrows(flight, shown), _bounds(flight, shown)
     size = high - low
-    tall = float(np.clip((current_style().page - 0.5) * size[1] / size[0], LEAST, TALLEST))
-    figure = page_figure(tall + BELOW + AROUND)
-    above, below = figure.subplots(2, 1, height_ratios=[tall, BELOW])
+    tall = float(np.clip((current_style().page - 0.5) * size[1] / size[0], MIN_HEIGHT, MAX_HEIGHT))
+    figure = page_figure(tall + LOWER_HEIGHT + FRAME_HEIGHT)
+    above, below = figure.subplots(2, 1, height_ratios=[tall, LOWER_HEIGHT])
     _from_above(above, flight, shown, found)
     above.set_xlim(low[0], high[0])
     above.set_ylim(low[1], high[1])

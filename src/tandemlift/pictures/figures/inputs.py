@@ -28,7 +28,7 @@ CAPTION = Caption(
 IN_FLIGHTS = all_flights
 OVERLAY = over_time("thrust", "moment")
 
-LEAST = (1.0, 0.02, 0.02, 0.02)  # N, N m, N m, N m: least spans of the axes
+MIN_SPANS = (1.0, 0.02, 0.02, 0.02)  # N, N m, N m, N m: least spans of the axes
 LABELS = ("$U_1$ (N)", "$U_2$ (N m)", "$U_3$ (N m)", "$U_4$ (N m)")
 
 
@@ -36,7 +36,7 @@ def _panel(ax: Axes, flight: Flight, i: int, shown: NDArray[np.bool_], late: boo
     """Draw input i over the samples `shown`, on a value axis that is scaled to them, or to those after the start."""
     values = flight["thrust"] if i == 0 else flight["moment"][:, i - 1]
     line(ax, flight.time[shown], values[shown], color=BLUE, lw=1.0)
-    fit(ax, scaling(flight, np.where(shown, values, np.nan), late), least=LEAST[i])
+    fit(ax, scaling(flight, np.where(shown, values, np.nan), late), least=MIN_SPANS[i])
     if i:
         ax.axhline(0.0, color=GREY, lw=0.4, zorder=0)
 
@@ -45,7 +45,7 @@ def _panel(ax: Axes, flight: Flight, i: int, shown: NDArray[np.bool_], late: boo
 def draw(flight: Flight) -> Figure:
     """Draw U1 [N] with the vehicle's weight, and U2, U3, U4 [N m]; the start apart if it is disturbed."""
     time = flight.time
-    disturbed = is_disturbed(flight, np.column_stack([flight["thrust"], flight["moment"]]), LEAST)
+    disturbed = is_disturbed(flight, np.column_stack([flight["thrust"], flight["moment"]]), MIN_SPANS)
     figure = page_figure(4.4)
     widths = (1.0, 2.6) if disturbed else (1.0,)
     axes = figure.subplots(4, len(widths), squeeze=False, gridspec_kw={"width_ratios": widths})

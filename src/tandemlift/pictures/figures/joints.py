@@ -28,7 +28,7 @@ CAPTION = Caption(
 IN_FLIGHTS = with_any_of("joint_force")
 OVERLAY = over_time("joint_force", "joint_torque")
 
-AROUND = 0.9  # in, above and below the rows
+FRAME_HEIGHT = 0.9  # in, above and below the rows
 COLUMNS = (("joint_force", "f", "N", 0.2), ("joint_torque", "t", "N m", 0.05))  # channel, symbol, unit, least span
 FAINT: dict[str, Any] = {"lw": 0.5, "alpha": 0.35, "zorder": 1}
 
@@ -58,7 +58,7 @@ def _legend(figure: Figure, sensed: bool) -> None:
 @journal
 def draw(flight: Flight) -> Figure:
     """Draw force [N] and torque [N m] of each quadrotor on the payload (body axes), a row each, of the first eight."""
-    figure, rows = fleet_figure(flight["joint_force"].shape[1] // 3, AROUND)
+    figure, rows = fleet_figure(flight["joint_force"].shape[1] // 3, FRAME_HEIGHT)
     axes = figure.subplots(rows, 2, squeeze=False)
     for column, (name, symbol, unit, least) in enumerate(COLUMNS):
         scaled = []

@@ -50,12 +50,12 @@ CAPTION = Caption(
 )
 IN_FLIGHTS = all_flights
 
-MOST = 6  # vehicles drawn
+COUNT = 6  # vehicles drawn
 SPACING = 1.2  # vehicle spans of path from one vehicle drawn to the next, at least
 VISIBLE = 0.02  # of the longest side of the scene: a smaller vehicle would be a blot
 MOST_NUMBERED = 12  # pushes: of more, only the longest has its size beside it
-LONGEST = 0.13  # of the longest side of the scene: the longest arrow
-DEEP = 0.5  # of the longest side of the scene: a floor farther below is not drawn
+ARROW_RATIO = 0.13  # of the longest side of the scene: the longest arrow
+DEPTH = 0.5  # of the longest side of the scene: a floor farther below is not drawn
 
 
 class PushArrow(NamedTuple):
@@ -80,7 +80,7 @@ def pushes(flight: Flight) -> list[PushArrow]:
 def instants(path: Array, span: float) -> list[int]:
     """Samples at which to draw a vehicle of a span [m]: the first, the last, and some at even steps along the path."""
     way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
-    count = min(MOST, 1 + int(way[-1] / (SPACING * span)))
+    count = min(COUNT, 1 + int(way[-1] / (SPACING * span)))
     if count == 1:
         return [len(path) - 1] if way[-1] < span / 4.0 else [0, len(path) - 1]
     between = np.searchsorted(way, np.linspace(0.0, way[-1], count)[1:-1])
@@ -164,7 +164,7 @@ def _draw_path(scene: Scene3D, path: Array, look: dict[str, Any]) -> list[Any]:
 def _floor(flight: Flight, around: Array) -> float | None:
     """Height of the floor [m] if there is one not far below the points (n, 3) that are shown."""
     height = floor_height(flight)
-    return height if height is not None and around[:, 2].min() - height < DEEP * np.ptp(around, axis=0).max() else None
+    return height if height is not None and around[:, 2].min() - height < DEPTH * np.ptp(around, axis=0).max() else None
 
 
 def _sound(flight: Flight) -> Mask:
@@ -203,7 +203,7 @@ def draw(flight: Flight) -> Figure:
     vehicles = [body.placed(path[k], attitudes[k]) for k in shown]
     around = np.concatenate([path, *(v.points for v in vehicles)]) if len(path) else body.points
     found = pushes(flight)
-    per_newton = LONGEST * np.ptp(around, axis=0).max() / max([np.linalg.norm(p.force) for p in found], default=1.0)
+    per_newton = ARROW_RATIO * np.ptp(around, axis=0).max() / max([np.linalg.norm(p.force) for p in found], default=1.0)
     tips = np.array([p.point + per_newton * p.force for p in found]).reshape(-1, 3)
     around = np.concatenate([around, tips])
 

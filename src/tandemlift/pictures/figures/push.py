@@ -42,7 +42,7 @@ MEASURED: dict[str, Any] = {"color": TAN, "lw": 0.6}
 LIMIT: dict[str, Any] = {"color": INK, "lw": 0.7, "ls": (0, (5, 3))}
 ROWS = (1.0, 1.0, 1.0, 1.0, 0.85)  # heights: three forces, the place, mass and disagreement
 LEAST_FORCE, LEAST_PLACE, LEAST_MASS = 0.2, 0.1, 0.02  # N, m, kg: least spans of the axes
-BEYOND = 1.06  # half-lengths of the beam that the axis of the place shows to each side
+AXIS_REACH = 1.06  # half-lengths of the beam that the axis of the place shows to each side
 
 
 def places(flight: Flight) -> list[Array]:
@@ -94,7 +94,7 @@ def _place(ax: Axes, flight: Flight) -> None:
     length = flight.vehicle.payload.span
     fit(ax, *(scaling(flight, place) for place in (point, *true)), least=LEAST_PLACE)
     if length:
-        ax.set_ylim(-BEYOND * length / 2.0, BEYOND * length / 2.0)
+        ax.set_ylim(-AXIS_REACH * length / 2.0, AXIS_REACH * length / 2.0)
     ax.axhline(0.0, color=GREY, lw=0.4, zorder=1)
     ax.set_ylabel("acts at $y$ (m)")
 

@@ -34,9 +34,9 @@ CAPTION = Caption(
 IN_FLIGHTS = with_any_of("rotor_commands")
 OVERLAY = over_time("rotor_thrusts", "allocation_fraction")
 
-AROUND, FRACTION = 2.0, 0.85  # in: above and below the rows of rotors, and of that, the lowest panel
+FRAME_HEIGHT, FRACTION = 2.0, 0.85  # in: above and below the rows of rotors, and of that, the lowest panel
 MARGIN = 0.12  # of the largest thrust, beyond the limits
-ROOMY = 0.7  # fraction of the thrust: if no more is left, words fit in above it
+FREE_THRUST = 0.7  # fraction of the thrust: if no more is left, words fit in above it
 THRUST: dict[str, Any] = {"color": BLUE, "lw": 0.9}
 COMMAND: dict[str, Any] = {"color": TAN, "lw": 0.7}
 LIMIT: dict[str, Any] = {"color": INK, "lw": 0.7, "ls": (0, (5, 3))}
@@ -61,7 +61,7 @@ def _limits(ax: Axes, flight: Flight, most: float, fault: dict[str, Any] | None)
     at, left = fault["time"], fault["efficiency"]
     ax.plot([0.0, at, at, end], [most, most, left * most, left * most], zorder=1, **LIMIT)
     ax.axvline(at, zorder=4, gid="fault", **FAILED)
-    place = most * (1.0 + left) / 2.0 if left < ROOMY else 0.25 * most
+    place = most * (1.0 + left) / 2.0 if left < FREE_THRUST else 0.25 * most
     late = at > end / 2.0
     look: dict[str, Any] = {
         "fontsize": points(7),
@@ -114,8 +114,8 @@ def _legend(figure: Figure, acting: str, failing: bool) -> None:
 def draw(flight: Flight) -> Figure:
     """Draw thrust, command and limits [N] of each rotor, a row for each quadrotor (at most 8), and the fraction."""
     quadrotors = flight.vehicle.quadrotors
-    figure, rows = fleet_figure(len(quadrotors), AROUND)
-    height = (figure.get_figheight() - AROUND) / rows
+    figure, rows = fleet_figure(len(quadrotors), FRAME_HEIGHT)
+    height = (figure.get_figheight() - FRAME_HEIGHT) / rows
     grid = figure.add_gridspec(rows + 1, 4, height_ratios=[*[height] * rows, FRACTION])
     faults = {name: rotor_fault(flight, *name) for name in product(range(1, rows + 1), range(1, 5))}
     for column, ((row, rotor), fault) in enumerate(faults.items()):

@@ -33,7 +33,7 @@ CAPTION = Caption(
 IN_FLIGHTS = with_any_of("wind_velocity", "contact_force")
 OVERLAY = over_time("wind_velocity", "wind_force", "contact_force")
 
-ROW, AROUND = 1.35, 0.85  # in: height of a panel, and above and below them all
+ROW_HEIGHT, FRAME_HEIGHT = 1.35, 0.85  # in: height of a panel, and above and below them all
 VECTORS = (  # channel, label, least span of the axis
     ("wind_velocity", "wind (m/s)", 0.2),
     ("wind_force", "force of the\nwind (N)", 0.2),
@@ -77,7 +77,7 @@ def draw(flight: Flight) -> Figure:
     ]
     if (floor := floor_height(flight)) is not None:
         panels.append((HEIGHT, lambda ax: _height(ax, flight, floor)))
-    figure = page_figure(AROUND + ROW * len(panels))
+    figure = page_figure(FRAME_HEIGHT + ROW_HEIGHT * len(panels))
     axes = figure.subplots(len(panels), 1, squeeze=False)[:, 0]
     for row, (ax, (label, fill)) in enumerate(zip(axes, panels, strict=True), 1):
         fill(ax)

@@ -16,7 +16,7 @@ from tandemlift.pictures.report.paper_tables import agrees
 
 UNTIL = 20.0  # s, before the pushes along x and y
 WITHIN, LEVEL = 0.01, 0.1  # m or m/s, degrees: a smaller error counts as zero
-SMALL = 14.0  # degrees: up to it, the sine of an angle is the angle within 1 %
+SMALL_ANGLE = 14.0  # degrees: up to it, the sine of an angle is the angle within 1 %
 REST = 5.0  # s without a push that is followed, after which errors should be zero
 HOLDS, NOT, UNTESTED = "holds", "does not", "not tested"
 MASS, INERTIA = "3.5", ("3.227327", "0.061286", "3.277117")  # kg, kg m2; Table II
@@ -176,8 +176,8 @@ def _of_attitude(paper: Flight) -> Iterator[PaperClaim]:
         "The vehicle flies near hover, with small angles.",
         f"Roll and pitch stay within {_list(small, 1, '°')} over the flight, within {_list(tilt, 1, '°')} after "
         f"{LATE:g} s.",
-        f"{SMALL:g}°, up to which a sine is its angle within 1 %.",
-        bool((small < SMALL).all()),
+        f"{SMALL_ANGLE:g}°, up to which a sine is its angle within 1 %.",
+        bool((small < SMALL_ANGLE).all()),
     )
 
 

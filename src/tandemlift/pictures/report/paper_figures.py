@@ -197,10 +197,10 @@ STAGES_CAPTION = Caption(
 )
 
 WORDS = ("standing before the corridor", "on the way", "at the end of the corridor", "landed")
-AROUND = np.array([3.8, 4.2])  # m of the corridor shown around the vehicle, along x and y
+VIEW = np.array([3.8, 4.2])  # m of the corridor shown around the vehicle, along x and y
 NEWTON = 0.75  # m of the view, for a newton
 FLYING = 0.97  # of the height: lower samples are of lift or landing
-WEAK = 0.05  # N: a weaker push is not drawn
+MIN_PUSH = 0.05  # N: a weaker push is not drawn
 
 
 def stages(flight: Flight) -> list[int]:
@@ -222,7 +222,7 @@ def _vehicle(ax: Axes, body: Skeleton) -> None:
 
 def _walls(ax: Axes, flight: Flight, place: Array, floor: float) -> list[Array]:
     """Draw the walls around a place (3) [m], before the vehicle or behind it. Returns their rims (2, 3) [m]."""
-    reach = np.append(AROUND, 10.0)
+    reach = np.append(VIEW, 10.0)
     rims, low, high = [], place - reach, place + reach
     for wall in walls_in(flight.walls, low, high):
         foot = np.column_stack([wall.rim[:, :2], np.full(2, floor)])
@@ -239,17 +239,17 @@ def _walls(ax: Axes, flight: Flight, place: Array, floor: float) -> list[Array]:
 def _stage(ax: Axes, flight: Flight, k: int) -> None:
     """Draw one instant."""
     place, floor = flight["position"][k], floor_height(flight) or 0.0
-    ground = place + np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]) * [*AROUND, 0.0]
+    ground = place + np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]) * [*VIEW, 0.0]
     ground[:, 2] = floor
     ax.add_collection(PolyCollection([on_paper(ground)], facecolor=GROUND, lw=0.0, zorder=0))
     flown = flight["position"][: k + 1]
-    near = flown[(np.abs(flown - place)[:, :2] <= AROUND).all(axis=1)][::10]
+    near = flown[(np.abs(flown - place)[:, :2] <= VIEW).all(axis=1)][::10]
     ax.plot(*on_paper(near).T, color=BLUE, lw=1.1, zorder=5)
     rims = _walls(ax, flight, place, floor)
     body = skeleton(flight.vehicle)
     _vehicle(ax, body.placed(place, flight["attitude"][k]))
     push = flight["push_force"][k]
-    if np.linalg.norm(push) > WEAK:
+    if np.linalg.norm(push) > MIN_PUSH:
         tail, tip = on_paper([place, place + NEWTON * push])
         arrow = {"arrowstyle": "-|>,head_length=0.35,head_width=0.16", "color": VERMILLION, "lw": 1.6, "shrinkA": 0}
         ax.annotate("", tip, tail, arrowprops={**arrow, "shrinkB": 0}, zorder=30)

@@ -20,7 +20,7 @@ from tandemlift.core.types import Progress
 from tandemlift.flight.record import Flight
 from tandemlift.pictures.figures.registry import figures_for, save_figures, save_flight_figure
 
-WORTH = 2  # figures from which on a second process saves time
+MIN_FIGURES = 2  # figures from which on a second process saves time
 NONE = -1  # the number of no figure
 
 
@@ -39,7 +39,7 @@ def draw_by_two(flight: Flight, folder: Path, progress: Progress | None = None) 
         progress: called with (figures written, figures in all), first before any is drawn.
     """
     names = list(figures_for(flight))
-    if len(names) < WORTH or not can_fork():
+    if len(names) < MIN_FIGURES or not can_fork():
         save_figures(flight, folder, progress)
         return
     folder.mkdir(parents=True, exist_ok=True)

@@ -25,7 +25,7 @@ from tandemlift.simulation.preparation.memory import (
     aligned,
 )
 
-THREAD_TIME = 2e-4  # s of flight code in a call, from which on threads share it
+THREADED_TIME = 2e-4  # s of flight code in a call, from which on threads share it
 
 
 class BlockOfFlights:
@@ -166,7 +166,7 @@ class BlockOfFlights:
         count, steps = len(self.blocks), stop - int(self.reached.min())
         if not steps:
             return 0
-        parts = max(1, min(self.threads, count, int(self._pace * count * steps / THREAD_TIME)))
+        parts = max(1, min(self.threads, count, int(self._pace * count * steps / THREADED_TIME)))
         began, cuts = time.perf_counter(), [count * i // parts for i in range(parts + 1)]
         if parts == 1:
             halted = self._fly_some(stop, 0, count)

@@ -67,7 +67,7 @@ def refuses(message):
 @pytest.mark.parametrize("bad", BAD.values(), ids=BAD)
 def test_a_page_whose_messages_are_refused_is_cut_off_long_before_it_floods(live, clock, monkeypatch, bad):
     monkeypatch.setattr(live.flight, "_applied", refuses)
-    enough = viewers.MAX_MESSAGES // viewers.REFUSED
+    enough = viewers.MAX_MESSAGES // viewers.REFUSAL_COST
     with live.viewer() as other:
         if b'"grab"' in bad and b"2e9" not in bad:
             other.grab(0.0, 0.0, 0.0)

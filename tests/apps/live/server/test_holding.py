@@ -187,9 +187,9 @@ def test_a_viewer_that_does_nothing_passes_the_hand_on_if_another_waits(live, cl
         told(two, 2, 1)
         two.say(type="turn", what="ask")
         told(one, 1, 1, 2)
-        clock[0] += viewers.IDLE + 1.0
+        clock[0] += viewers.HAND_TIMEOUT + 1.0
         told(one, 1, 2)
-        clock[0] += viewers.IDLE + 1.0  # nobody waits
+        clock[0] += viewers.HAND_TIMEOUT + 1.0  # nobody waits
         two.say(type="ping", t=0.0)
         two.text("pong")
         told(one, 1, 2)

@@ -27,8 +27,8 @@ from tandemlift.core.errors import FlightWarning, InputError
 from tandemlift.missions import IdleKey, Mission, MissionTemplate, Tables, idle_keys, places_in, sentences, tables_of
 
 SEED = "mission.seed"
-TRIED = 8  # rows of each variant that are formed before anything flies
-LONGER = 1.6  # times the mission's duration, with random persons: some are slow
+TRIAL_ROWS = 8  # rows of each variant that are formed before anything flies
+DURATION_FACTOR = 1.6  # times the mission's duration, with random persons: some are slow
 
 
 class StudyRow(NamedTuple):
@@ -190,7 +190,7 @@ class StudyPlan:
         mission, _ = self._own[variant]
         if mission.person.model != "steer" and GRIP in self.persons:
             changes, varied = ({k: v for k, v in keys.items() if k != GRIP} for keys in (changes, varied))
-        return {"mission.duration": LONGER * mission.mission.duration, **changes}, varied
+        return {"mission.duration": DURATION_FACTOR * mission.mission.duration, **changes}, varied
 
     def mission(self, row: StudyRow) -> Mission:
         """The mission of a row.
@@ -224,7 +224,7 @@ class StudyPlan:
         for variant in range(len(self.variants)):
             first = variant * per_variant
             refusals = []
-            for row in self.rows(first, first + min(TRIED, per_variant)):
+            for row in self.rows(first, first + min(TRIAL_ROWS, per_variant)):
                 try:
                     mission = self.mission(row)
                     idle.append((mission, self._idle(mission, row)))

@@ -12,7 +12,7 @@ from tandemlift.core.errors import InputError, extra
 from tandemlift.core.types import Array
 
 MOST_NUMBERS = 200_000_000  # of points that must be formed all at once
-LARGEST = float(np.nextafter(1.0, 0.0))
+MAX_QUANTILE = float(np.nextafter(1.0, 0.0))
 
 
 def point_count(sampling: Sampling, draws: int, dimensions: int) -> int:
@@ -69,11 +69,11 @@ def _sobol(dimensions: int, seed: int, first: int, last: int) -> Array:
         sequence.fast_forward(first)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)  # a part of the sequence need not be balanced by itself
-        return np.minimum(sequence.random(last - first), LARGEST)
+        return np.minimum(sequence.random(last - first), MAX_QUANTILE)
 
 
 @lru_cache(maxsize=2)
 def _latin_hypercube(draws: int, dimensions: int, seed: int) -> Array:
     with extra("study", "sampling = 'latin-hypercube'"):
         from scipy.stats.qmc import LatinHypercube
-    return np.minimum(LatinHypercube(dimensions, rng=np.random.default_rng(seed)).random(draws), LARGEST)
+    return np.minimum(LatinHypercube(dimensions, rng=np.random.default_rng(seed)).random(draws), MAX_QUANTILE)

@@ -18,8 +18,8 @@ from tandemlift.core.files import atomic_write
 if TYPE_CHECKING:
     import pyarrow
 
-ABOUT = "tandemlift."  # prefix of a file's metadata
-CHUNK, FOOTER = f"{ABOUT}chunk", f"{ABOUT}footer"
+PREFIX = "tandemlift."  # prefix of a file's metadata
+CHUNK, FOOTER = f"{PREFIX}chunk", f"{PREFIX}footer"
 DIGEST = hashlib.sha256  # of the footer; older files have none
 
 
@@ -45,7 +45,7 @@ def write_checked(table: pyarrow.Table, path: Path, about: Mapping[str, str]) ->
     from pyarrow import BufferOutputStream, parquet
 
     written = BufferOutputStream()
-    said = {f"{ABOUT}{key}": value for key, value in about.items()} | {CHUNK: path.stem, FOOTER: DIGEST().name}
+    said = {f"{PREFIX}{key}": value for key, value in about.items()} | {CHUNK: path.stem, FOOTER: DIGEST().name}
     named = table.replace_schema_metadata(said)
     parquet.write_table(named, written, compression="zstd", row_group_size=len(table), write_page_checksum=True)
     content = memoryview(written.getvalue())

@@ -25,7 +25,7 @@ Result = Mapping[str, Any] | InputError  # the metrics of a row, or the reason o
 ALWAYS = ("outcome", "failure", "findings", "events")  # metrics with columns of their own
 NOT_KEPT = ("wall_s",)  # not reproducible
 CHANNEL = "flight."  # begins the name of a channel's column
-WHOLE = ("row", "draw", "seed", "steps")  # columns of whole numbers
+INTEGERS = ("row", "draw", "seed", "steps")  # columns of whole numbers
 
 
 def columns_of_rows(chunk: Chunk, results: Sequence[Result], flights: Mapping[int, Flight]) -> Columns:
@@ -102,7 +102,7 @@ def write_columns(columns: Columns, path: Path, about: Mapping[str, str]) -> Non
 def _array(pa: Any, name: str, values: list[Any]) -> Any:
     """A column of one type: whole numbers, numbers, truths, texts, or lists of numbers."""
     known = [value for value in values if value is not None]
-    if name in WHOLE:
+    if name in INTEGERS:
         return pa.array(values, pa.int64())
     if known and all(isinstance(value, bool) for value in known):
         return pa.array(values, pa.bool_())

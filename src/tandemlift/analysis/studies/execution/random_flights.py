@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tandemlift.analysis.studies.design.plan import LONGER, StudyPlan
+from tandemlift.analysis.studies.design.plan import DURATION_FACTOR, StudyPlan
 from tandemlift.analysis.studies.design.settings import REFUSED
 from tandemlift.analysis.studies.design.study_files import load_plan
 from tandemlift.analysis.studies.execution.chunk_scheduling import fly_study
@@ -66,7 +66,7 @@ def what_is_drawn(plan: StudyPlan) -> tuple[str, str]:
     """The keys that a plan from `random_plan` draws, and from which ranges: a sentence each."""
     keys, longer, person = ", ".join(plan.rows(0, 1)[0].varied), "", ""
     if plan.persons:
-        longer = f"; mission.duration is {LONGER:g} times as long, because some persons are slow"
+        longer = f"; mission.duration is {DURATION_FACTOR:g} times as long, because some persons are slow"
         person = '; a person as of study.persons = "random", with up to 1 N of wind if the mission has no force'
     return (
         f"Drawn: mission.seed, {keys}. All else is as written{longer}.",

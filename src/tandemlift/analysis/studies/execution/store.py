@@ -10,12 +10,12 @@ from pathlib import Path
 from typing import Any
 
 from tandemlift.analysis.studies.design.keys import leaves_of
-from tandemlift.analysis.studies.design.plan import TRIED, StudyPlan
+from tandemlift.analysis.studies.design.plan import TRIAL_ROWS, StudyPlan
 from tandemlift.analysis.studies.design.study_files import checked_settings
 from tandemlift.analysis.studies.design.variants import variant_from
 from tandemlift.analysis.studies.execution.checked_file import CheckedFile, DamagedFile
 from tandemlift.analysis.studies.execution.chunk import chunk_names, sources_digest, study_digest
-from tandemlift.analysis.studies.execution.columns import ALWAYS, NOT_KEPT, WHOLE, Columns, write_columns
+from tandemlift.analysis.studies.execution.columns import ALWAYS, INTEGERS, NOT_KEPT, Columns, write_columns
 from tandemlift.core.errors import InputError, extra, shown, unknown
 from tandemlift.core.files import __version__, write_file
 from tandemlift.flight.channels import DERIVED
@@ -246,7 +246,7 @@ def check_names(plan: StudyPlan, reported: Iterable[str] = ()) -> None:
     flights = list(_samples(plan))
     metrics = [name for name in _together(map(metric_names, flights)) if name not in NOT_KEPT]
     _check("metric of keep.metrics", keep.metrics, metrics)
-    _check("metric of --for", stems, [name for name in keep.metrics or metrics if name not in (*ALWAYS, *WHOLE)])
+    _check("metric of --for", stems, [name for name in keep.metrics or metrics if name not in (*ALWAYS, *INTEGERS)])
     if keep.channels:
         _check("channel of keep.channels", keep.channels, [*_together(map(channel_names, flights)), *DERIVED])
 
@@ -267,7 +267,7 @@ def _samples(plan: StudyPlan) -> Iterator[FlightPlan]:
     each = plan.count // cells
     templates = [variant.template() for variant in plan.variants]
     for cell in range(cells):
-        for row in plan.rows(cell * each, cell * each + min(TRIED, each)):
+        for row in plan.rows(cell * each, cell * each + min(TRIAL_ROWS, each)):
             try:
                 yield FlightPlan(templates[row.variant].mission(row.changes), in_block=True)
             except InputError:

@@ -13,8 +13,8 @@ from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.keys import is_number
 from tandemlift.core.types import Array
 
-LARGER = {"clearance_min_m"}  # metrics of which more is better: their inverse is minimized
-LEAST = 1e-2  # of the largest component of a metric: the scale of smaller present values
+INVERTED_METRICS = {"clearance_min_m"}  # metrics of which more is better: their inverse is minimized
+SCALE_FLOOR = 1e-2  # of the largest component of a metric: the scale of smaller present values
 CAP = 1e6  # largest ratio, of a metric that must be large and is not
 Metrics = Mapping[str, Any]
 
@@ -60,7 +60,7 @@ class Goal(NamedTuple):
     @property
     def is_larger_better(self) -> bool:
         """Whether more of the metric is better."""
-        return self.metric in LARGER
+        return self.metric in INVERTED_METRICS
 
     def labels(self, count: int) -> list[str]:
         """The names of its `count` components, as columns of a study."""
@@ -156,7 +156,7 @@ def scales_of(goal: Goal, cases: Sequence[str], present: Array) -> Array:
     """
     known = present[np.isfinite(present).all(axis=1)]
     own = np.median(np.abs(known), axis=0) if len(known) else np.ones(present.shape[1])
-    own = np.maximum(own, LEAST * own.max()) if own.max() > 0.0 else np.ones(present.shape[1])
+    own = np.maximum(own, SCALE_FLOOR * own.max()) if own.max() > 0.0 else np.ones(present.shape[1])
     if goal.target is not None:
         own = np.broadcast_to(np.asarray(goal.target, float), own.shape)
     rows = [np.broadcast_to(np.asarray(goal.targets[c], float), own.shape) if c in goal.targets else own for c in cases]

@@ -97,8 +97,8 @@ class TuningSearch:
 
 
 FINALISTS = 8  # of each kind
-TIMES = 16  # draws, for each draw of the search
-EARLY, LAST = 4, 4  # a quarter of the draws first; then the best four fly the others
+DRAW_FACTOR = 16  # draws, for each draw of the search
+DIVISOR, FINALS = 4, 4  # a quarter of the draws first; then the best four fly the others
 
 
 def choose(
@@ -119,10 +119,10 @@ def choose(
     finalists = list(dict.fromkeys(tried.values for tried in ranked))[:FINALISTS]
     once_best = [values for _, values in search.records[-FINALISTS:]]
     finalists = list(dict.fromkeys([*finalists, *once_best, task.as_flown(optimiser.centre)]))
-    early = draws[: len(draws) // EARLY]
+    early = draws[: len(draws) // DIVISOR]
     judge = search.task.for_draws(early)
     costs = [judge.cost(trial) for trial in judge.fly([task.changes(values) for values in finalists], early)]
-    last = [values for _, values in sorted(zip(costs, finalists, strict=True), key=lambda pair: pair[0].rank)[:LAST]]
+    last = [values for _, values in sorted(zip(costs, finalists, strict=True), key=lambda pair: pair[0].rank)[:FINALS]]
     old, *others = (task.cost(trial) for trial in task.fly([{}, *map(task.changes, last)], draws))
     chosen, lowest = min(zip(last, others, strict=True), key=lambda pair: pair[1].rank)
     return (chosen, (old, lowest)) if lowest.rank < old.rank else (present.values, (old, old))

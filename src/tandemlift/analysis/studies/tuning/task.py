@@ -26,7 +26,7 @@ from tandemlift.core.types import Array
 from tandemlift.simulation.results import SHAPES
 
 Values = tuple[Value, ...]
-FIRST = 4  # draws in which a candidate must not always fail to be flown on the others
+TRIAL_DRAWS = 4  # draws in which a candidate must not always fail to be flown on the others
 
 
 class Task(NamedTuple):
@@ -71,10 +71,10 @@ class Task(NamedTuple):
 
     def fly_while_hopeful(self, candidates: Sequence[Changes], draws: Sequence[Draw]) -> list[Trial]:
         """As `fly`; a candidate that fails in all of the first draws flies no others, and counts as failing there."""
-        first = self.fly(candidates, draws[:FIRST])
+        first = self.fly(candidates, draws[:TRIAL_DRAWS])
         hopeful = [i for i, trial in enumerate(first) if not trial.bad.all()]
-        rest = dict(zip(hopeful, self.fly([candidates[i] for i in hopeful], draws[FIRST:]), strict=True))
-        more = len(draws) - len(draws[:FIRST])
+        rest = dict(zip(hopeful, self.fly([candidates[i] for i in hopeful], draws[TRIAL_DRAWS:]), strict=True))
+        more = len(draws) - len(draws[:TRIAL_DRAWS])
         return [joined(trial, rest[i]) if i in rest else repeated(trial, more) for i, trial in enumerate(first)]
 
     def cost(self, trial: Trial) -> Cost:

@@ -23,8 +23,8 @@ from tandemlift.analysis.studies.tuning.optimisers import FAR_STEP, FIRST_STEP, 
 from tandemlift.analysis.studies.tuning.parameters import Range, Tunable, parameters_of
 from tandemlift.analysis.studies.tuning.result import Tuning, present_values
 from tandemlift.analysis.studies.tuning.search import (
+    DRAW_FACTOR,
     INTERRUPTED,
-    TIMES,
     CandidateResult,
     TuneProgress,
     TuningSearch,
@@ -194,7 +194,7 @@ def _tuned(source: MissionSource, goals: tuple[Goal, ...], how: How, progress: T
     found = so_far()._replace(is_finished=search.ended != INTERRUPTED)
     if budget and found.is_finished:
         try:
-            new, costs = choose(search, optimiser, drawn.other_draws(TIMES * len(compared), CHOICE_SEED))
+            new, costs = choose(search, optimiser, drawn.other_draws(DRAW_FACTOR * len(compared), CHOICE_SEED))
         except KeyboardInterrupt:
             return found._replace(ended=INTERRUPTED, is_finished=False)
         found = found._replace(new=new, costs=costs)

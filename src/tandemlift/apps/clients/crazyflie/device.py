@@ -20,7 +20,7 @@ from tandemlift.apps.clients.quadrotors import ArmingState, Quadrotors
 from tandemlift.apps.clients.setpoints import Setpoint, Stop, is_finite
 
 PROTOCOL, NAME, FIRMWARE, DEVICE = 12, b"Bitcraze Crazyflie", b"tandemlift", b"CF21BL"
-LONGEST = 31  # bytes of a packet: header and 30
+MAX_PACKET = 31  # bytes of a packet: header and 30
 TRAJECTORIES = 0x12  # type of the only memory
 WATCHDOG = 1.0  # s; crazyflie-firmware, supervisor.c: DEFAULT_EMERGENCY_STOP_WATCHDOG_TIMEOUT
 PRIORITY = 2.0  # s, for which a setpoint keeps high-level commands away; commander.h: COMMANDER_WDT_TIMEOUT_SHUTDOWN
@@ -71,7 +71,7 @@ class Crazyflie:
 
     def receive(self, packet: bytes) -> list[bytes]:
         """The answers to a packet."""
-        if not 1 <= len(packet) <= LONGEST:
+        if not 1 <= len(packet) <= MAX_PACKET:
             self.refused += 1
             return []
         try:
@@ -79,7 +79,7 @@ class Crazyflie:
         except MALFORMED:
             self.refused += 1
             return []
-        return [] if data is None else [packet[:1] + data[: LONGEST - 1]]
+        return [] if data is None else [packet[:1] + data[: MAX_PACKET - 1]]
 
     def _answer(self, port: int, channel: int, data: bytes) -> bytes | None:
         """The data of the answer to a packet; None without one."""
@@ -87,7 +87,7 @@ class Crazyflie:
             case 15, 0:
                 return data
             case 15, 1:
-                return NAME.ljust(LONGEST - 1, b"\0")
+                return NAME.ljust(MAX_PACKET - 1, b"\0")
             case 15, 3:
                 return b""  # the null packet, by which a client scans
             case 13, 1:

@@ -19,7 +19,7 @@ from tandemlift.apps.clients.setpoints import FullStateSetpoint, QuadrotorState,
 
 MEMORY = 4096  # bytes of uploaded trajectories; crazyflie-firmware, TRAJECTORY_MEMORY_SIZE
 PIECE = struct.Struct("<33f")  # eight coefficients of x, y, z and yaw, and a duration [s]
-SHORTEST, LONGEST = 0.05, 3600.0  # s, of a piece
+MIN_PIECE, MAX_PIECE = 0.05, 3600.0  # s, of a piece
 # c4 … c7 from position, velocity and acceleration at the end, and jerk 0, over a time of 1
 END = np.linalg.inv([[1, 1, 1, 1], [4, 5, 6, 7], [12, 20, 30, 42], [24, 60, 120, 210]])
 
@@ -157,7 +157,7 @@ class HighLevelCommander:
         return Moment((*state.position, state.euler[2]), (*state.velocity, 0.0), (0.0,) * 4)
 
     def _go(self, start: Moment, goal: Sequence[float], duration: float, now: float, *, lands: bool = False) -> int:
-        if not all(map(math.isfinite, (*goal, duration))) or not SHORTEST <= duration <= LONGEST:
+        if not all(map(math.isfinite, (*goal, duration))) or not MIN_PIECE <= duration <= MAX_PIECE:
             return NO_COMMAND
         turn = math.remainder(goal[3] - start.place[3], 2.0 * math.pi)
         goal = (*goal[:3], start.place[3] + turn)
@@ -170,7 +170,7 @@ class HighLevelCommander:
             return NO_ENTRY
         offset, count = self._defined[number]
         pieces = [_read(bytes(self.memory[offset + i * PIECE.size :][: PIECE.size]), scale) for i in range(count)]
-        if not all(SHORTEST <= p.duration <= LONGEST and np.isfinite(p.coefficients).all() for p in pieces):
+        if not all(MIN_PIECE <= p.duration <= MAX_PIECE and np.isfinite(p.coefficients).all() for p in pieces):
             return NO_COMMAND
         first = pieces[0].at(0.0).place
         turn = start.place[3] - first[3] if turned else 0.0

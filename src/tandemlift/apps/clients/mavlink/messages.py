@@ -19,7 +19,7 @@ from tandemlift.apps.clients.mavlink.modes import Autopilot
 
 LATITUDE, LONGITUDE, ALTITUDE = 47.397742, 8.545594, 488.0  # deg, deg, m: of the mission's origin; as PX4's simulations
 EARTH = 6371000.0  # m; radius, as in PX4's projection
-UNKNOWN = 65535  # stands for what is not measured
+NOT_MEASURED = 65535  # stands for what is not measured
 SENSORS = 2**0 | 2**1 | 2**2 | 2**5 | 2**21 | 2**25  # gyroscope, accelerometer, magnetometer, GPS, AHRS, battery
 CAPABILITIES = 2**4 | 2**6 | 2**7 | 2**13  # whole parameters by bytes, attitudes, positions, MAVLink 2
 SENT = {  # Hz, as long as no client asks for another rate
@@ -66,17 +66,17 @@ def message(kind: int, number: int, autopilot: Autopilot) -> Any:
             made = mavlink.MAV_TYPE_QUADROTOR, autopilot.kind
             return mavlink.MAVLink_heartbeat_message(*made, mode, autopilot.mode.custom, status, 3)
         case mavlink.MAVLINK_MSG_ID_SYS_STATUS:
-            return mavlink.MAVLink_sys_status_message(*[SENSORS] * 3, 0, UNKNOWN, -1, 100, *[0] * 6)
+            return mavlink.MAVLink_sys_status_message(*[SENSORS] * 3, 0, NOT_MEASURED, -1, 100, *[0] * 6)
         case mavlink.MAVLINK_MSG_ID_BATTERY_STATUS:
             lithium = mavlink.MAV_BATTERY_FUNCTION_ALL, mavlink.MAV_BATTERY_TYPE_LIPO
-            return mavlink.MAVLink_battery_status_message(0, *lithium, 32767, [UNKNOWN] * 10, -1, -1, -1, 100)
+            return mavlink.MAVLink_battery_status_message(0, *lithium, 32767, [NOT_MEASURED] * 10, -1, -1, -1, 100)
         case mavlink.MAVLINK_MSG_ID_EXTENDED_SYS_STATE:
             landed = mavlink.MAV_LANDED_STATE_IN_AIR if autopilot.in_air else mavlink.MAV_LANDED_STATE_ON_GROUND
             return mavlink.MAVLink_extended_sys_state_message(mavlink.MAV_VTOL_STATE_UNDEFINED, landed)
         case mavlink.MAVLINK_MSG_ID_HOME_POSITION:
             return mavlink.MAVLink_home_position_message(*geodetic(autopilot.origin), 0, 0, 0, [1, 0, 0, 0], 0, 0, 0)
         case mavlink.MAVLINK_MSG_ID_GPS_RAW_INT:
-            return mavlink.MAVLink_gps_raw_int_message(1000 * now, 3, *geodetic(s.position), *[UNKNOWN] * 4, 10)
+            return mavlink.MAVLink_gps_raw_int_message(1000 * now, 3, *geodetic(s.position), *[NOT_MEASURED] * 4, 10)
         case mavlink.MAVLINK_MSG_ID_GLOBAL_POSITION_INT:
             above, speed = whole(-1e3 * local[2], 32), [whole(1e2 * v, 16) for v in velocity]
             heading = round(100.0 * math.degrees(-s.euler[2])) % 36000

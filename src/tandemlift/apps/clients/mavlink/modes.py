@@ -44,7 +44,7 @@ PARAMETERS = {  # value at the start, bounds
     CLIMB: (0.7, 0.1, 2.0),  # m/s; chosen
     SINK: (0.5, 0.1, 2.0),  # m/s; chosen
 }
-AIRBORNE, STILL, SETTLED = 0.05, 0.1, 0.5  # m above the start; m/s; s on the floor, after which a landing has ended
+LIFTOFF, DRIFT, DWELL = 0.05, 0.1, 0.5  # m above the start; m/s; s on the floor, after which a landing has ended
 DEEPEST = 1.0  # m below the start, where a landing ends, so that the rotors let go
 
 
@@ -69,7 +69,7 @@ class Autopilot:
     @property
     def in_air(self) -> bool:
         """Whether it is off the floor that it started from."""
-        return self.state.position[2] - self.origin[2] > AIRBORNE
+        return self.state.position[2] - self.origin[2] > LIFTOFF
 
     def enter(self, mode: MavlinkMode) -> None:
         """Begin a mode, here and with this yaw, whatever it needs."""
@@ -155,6 +155,6 @@ class Autopilot:
 
     def _has_landed(self) -> bool:
         """Whether it has stood on the floor for a while."""
-        rests = not self.in_air and math.hypot(*self.state.velocity) < STILL
+        rests = not self.in_air and math.hypot(*self.state.velocity) < DRIFT
         self._settled = min(self._settled, self.state.time) if rests else math.inf
-        return self.state.time - self._settled > SETTLED
+        return self.state.time - self._settled > DWELL

@@ -11,7 +11,7 @@ from tandemlift.apps.clients.mavlink.messages import mavlink
 from tandemlift.apps.clients.mavlink.modes import LOSS_ACTION, PARAMETERS
 from tandemlift.apps.clients.mission_numbers import MissionNumber
 
-LONGEST = 16  # characters of a name
+MAX_NAME_LENGTH = 16  # characters of a name
 
 
 def name_of(key: str) -> str:
@@ -20,9 +20,9 @@ def name_of(key: str) -> str:
     A number behind the last word belongs to it: `wind.velocity_1` is WIND_VELOCITY_1.
     """
     words = key.replace(".", "_").upper().split("_")
-    last = "_".join(words[-2:] if words[-1].isdigit() and len(words) > 1 else words[-1:])[-LONGEST:]
+    last = "_".join(words[-2:] if words[-1].isdigit() and len(words) > 1 else words[-1:])[-MAX_NAME_LENGTH:]
     first = words[: len(words) - last.count("_") - 1]
-    letters = (LONGEST - len(last) - len(first)) // max(len(first), 1)
+    letters = (MAX_NAME_LENGTH - len(last) - len(first)) // max(len(first), 1)
     return "_".join([*(word[:letters] for word in first if letters > 0), last])
 
 

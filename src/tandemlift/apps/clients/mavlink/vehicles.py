@@ -22,10 +22,10 @@ from tandemlift.apps.clients.mission_numbers import mission_numbers
 from tandemlift.apps.clients.quadrotors import Quadrotors
 
 HOST, PORT, OWN = "127.0.0.1", 14540, 40  # where clients of the first quadrotor listen; to add for its own port
-MOST = 8  # other clients of a quadrotor; whoever was silent for longest makes way
+MAX_CLIENTS = 8  # other clients of a quadrotor; whoever was silent for longest makes way
 PACKETS = 8  # that are read between two control steps; others wait, as far as the system has room
 MAVLINK_2, OVERHEAD, SIGNATURE = 0xFD, {0xFD: 12, 0xFE: 8}, 13  # first byte; bytes beside a payload, by first byte
-FASTEST, AGAIN = 0.002, 1.0  # s, between two messages of a kind; before a text is repeated
+MIN_INTERVAL, REPEAT_TIME = 0.002, 1.0  # s, between two messages of a kind; before a text is repeated
 FORCE = 21196.0  # by which COMPONENT_ARM_DISARM disarms in the air; MAVLink
 TUMBLED = "tumbled: rotors stopped until the flight is reset"
 
@@ -58,7 +58,7 @@ class VehicleLink:
                 if m is None or isinstance(m, mavlink.MAVLink_unknown):  # pymavlink has checked none of these
                     continue
                 if (sender := self._sender) != self._listener:
-                    self._others = [*(other for other in self._others if other != sender), sender][-MOST:]
+                    self._others = [*(other for other in self._others if other != sender), sender][-MAX_CLIENTS:]
                 yield m, sender
 
     def write(self, data: bytes) -> None:
@@ -116,7 +116,7 @@ class MavlinkVehicle:
     def say(self, text: str) -> None:
         """Send a text to all clients; the same one at most once a second."""
         now = self.autopilot.state.time
-        self._said = {said: at for said, at in self._said.items() if now - at < AGAIN}
+        self._said = {said: at for said, at in self._said.items() if now - at < REPEAT_TIME}
         if self._said.setdefault(text, now) == now:
             self._link.send(mavlink.MAVLink_statustext_message(mavlink.MAV_SEVERITY_WARNING, text.encode()[:50]))
 
@@ -198,7 +198,7 @@ class MavlinkVehicle:
             case mavlink.MAV_CMD_REQUEST_MESSAGE if p[0] in RATES:
                 self._link.send(message(int(p[0]), self.number, self.autopilot))
             case mavlink.MAV_CMD_SET_MESSAGE_INTERVAL if p[0] in RATES and p[1] >= -1.0:  # µs; 0: as first; -1: never
-                asked = max(1e-6 * p[1], FASTEST) if p[1] > 0.0 else math.inf
+                asked = max(1e-6 * p[1], MIN_INTERVAL) if p[1] > 0.0 else math.inf
                 self._periods[int(p[0])] = asked if p[1] else self._first[int(p[0])]
                 self._due[int(p[0])] = self.autopilot.state.time
             case _:

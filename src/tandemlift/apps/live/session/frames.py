@@ -21,7 +21,7 @@ from tandemlift.core.vector import Quat, Vec3, cross, dot
 RATE = 60  # frames a second, at most
 STATUS_EVERY = RATE // 4  # frames, from one status to the next
 ECHO = 0.003  # s, within which the flight has followed a move
-FRESH = 0.012  # s after an echo, in which a page needs no other frame
+ECHO_TIME = 0.012  # s after an echo, in which a page needs no other frame
 
 
 class FrameField(NamedTuple):

@@ -20,7 +20,7 @@ from tandemlift.missions.key_descriptions import controller_names, own_numbers
 from tandemlift.simulation.recorded_flight import RecordedFlight
 
 RAMP = 0.5  # s, within which a parameter changes to its new value
-EVERY = "vehicle.quadrotors.each."  # begins the key of a parameter that all quadrotors share
+GROUP = "vehicle.quadrotors.each."  # begins the key of a parameter that all quadrotors share
 
 
 class TunableParameter(NamedTuple):
@@ -48,8 +48,8 @@ TUNABLE = (
     TunableParameter("controller.gains.lambda_2", "λ₂", "controller", "m/s², rad/s²", 0.05, 40.0),
     TunableParameter("wind.velocity", "wind", "world", "m/s", -8.0, 8.0),
     TunableParameter("wind.turbulence", "turbulence", "world", "m/s", 1e-3, 8.0),
-    TunableParameter(f"{EVERY}lag_up", "rotor lag, up", "world", "s", 0.002, 0.1),
-    TunableParameter(f"{EVERY}lag_down", "rotor lag, down", "world", "s", 0.002, 0.1),
+    TunableParameter(f"{GROUP}lag_up", "rotor lag, up", "world", "s", 0.002, 0.1),
+    TunableParameter(f"{GROUP}lag_down", "rotor lag, down", "world", "s", 0.002, 0.1),
     TunableParameter("sensors.joints.force_noise", "joint force noise", "world", "N", 0.0, 1.0),
     TunableParameter("sensors.motion.position_noise", "position noise", "world", "m", 0.0, 0.05),
 )
@@ -62,9 +62,9 @@ CHOICES = tuple(LABELS)
 
 def keys_of(tables: Tables, key: str) -> list[str]:
     """The keys of a mission, given as tables, that a parameter's key stands for."""
-    if not key.startswith(EVERY):
+    if not key.startswith(GROUP):
         return [key]
-    return [f"vehicle.quadrotors.{i}.{key.removeprefix(EVERY)}" for i in range(len(tables["vehicle"]["quadrotors"]))]
+    return [f"vehicle.quadrotors.{i}.{key.removeprefix(GROUP)}" for i in range(len(tables["vehicle"]["quadrotors"]))]
 
 
 def dotted_values(tables: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
@@ -78,7 +78,7 @@ def dotted_values(tables: Mapping[str, Any], above: str = "") -> Iterator[tuple[
 
 def value_of(tables: Tables, key: str) -> Any:
     """The value of a parameter in a mission's tables, or `MISSING`."""
-    value = value_at(tables, place_of(key.replace(EVERY, "vehicle.quadrotors.0.")))
+    value = value_at(tables, place_of(key.replace(GROUP, "vehicle.quadrotors.0.")))
     return "hard" if key == GATE and value is MISSING else value
 
 

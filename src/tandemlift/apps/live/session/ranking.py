@@ -21,9 +21,9 @@ from tandemlift.missions.recording import HAND_FILE, MAX_UNPACKED, MISSION_FILE,
 from tandemlift.simulation.fly import fly
 
 FREE = ("mission.name", "mission.duration", "person.recording", "mission.fma")  # of each flight; rounding, of its page
-EQUAL = 1e-6  # s: scores are the same
-MOST = {MISSION_FILE: 1_000_000, HAND_FILE: MAX_UNPACKED, SCORE_FILE: 10_000}  # bytes of a file, unpacked
-LONGEST = 3600.0  # s of a flight
+TIE_TOLERANCE = 1e-6  # s: scores are the same
+MAX_BYTES = {MISSION_FILE: 1_000_000, HAND_FILE: MAX_UNPACKED, SCORE_FILE: 10_000}  # bytes of a file, unpacked
+MAX_DURATION = 3600.0  # s of a flight
 
 
 class HandedIn(NamedTuple):
@@ -69,19 +69,19 @@ def scored(path: Path, challenge: Mapping[str, Any], free: tuple[str, ...]) -> H
 
 
 def _flown_again(path: Path, challenge: Mapping[str, Any], free: tuple[str, ...]) -> tuple[CorridorScore, bytes]:
-    contents = {name: _content(path, name) for name in MOST}
+    contents = {name: _content(path, name) for name in MAX_BYTES}
     person = toml_tables((contents[MISSION_FILE] or b"").decode()).get("person", {})
     if not isinstance(person, dict) or person.get("recording") != HAND_FILE:
         raise InputError(f"{path.name}: has no recording of a hand")
     with without_flight_warnings():
         mission = load_mission(path if path.suffix == ".zip" else path / MISSION_FILE)
-        if mission.mission.duration > LONGEST:
-            raise InputError(f"mission.duration = {mission.mission.duration:g}: must be at most {LONGEST:g} s")
+        if mission.mission.duration > MAX_DURATION:
+            raise InputError(f"mission.duration = {mission.mission.duration:g}: must be at most {MAX_DURATION:g} s")
         _check_unchanged(dict(dotted_values(tables_of(mission))), challenge, free)
         hand = read_recording(str(mission.person.recording))
         score = score_of(fly(mission))
     claimed = _claimed(path, contents[SCORE_FILE])
-    if claimed is not None and abs(claimed - score.total) > EQUAL:
+    if claimed is not None and abs(claimed - score.total) > TIE_TOLERANCE:
         raise InputError(f"{SCORE_FILE} says {claimed:.2f} s, but the recording flies {score.total:.2f} s")
     return score, hand.steps.tobytes() + hand.hands.tobytes()
 
@@ -92,13 +92,13 @@ def _content(path: Path, name: str) -> bytes | None:
     if path.suffix == ".zip":
         with zipfile.ZipFile(path) as archive:
             size = archive.getinfo(name).file_size if name in archive.namelist() else None
-            content = archive.read(name) if size is not None and size <= MOST[name] else None
+            content = archive.read(name) if size is not None and size <= MAX_BYTES[name] else None
     else:
         file = path / name
         size = (file.stat().st_size if file.is_file() else math.inf) if file.exists() else None
-        content = file.read_bytes() if size is not None and size <= MOST[name] else None
+        content = file.read_bytes() if size is not None and size <= MAX_BYTES[name] else None
     if size is not None and content is None:
-        raise InputError(f"{path.name}: {name} must be a file of at most {MOST[name]:,} bytes")
+        raise InputError(f"{path.name}: {name} must be a file of at most {MAX_BYTES[name]:,} bytes")
     return content
 
 

@@ -27,7 +27,7 @@ SPRING = server.SceneSpring(stiffness=8.0, damping=2.0, max_force=8.0)  # of a p
 WALL_THICKNESS = 0.02  # m, as drawn; walls have none
 TURNING = ("blades", "rotor")  # begin the names of the shapes that turn
 DIGITS = 6  # decimals of shapes [m]
-PAST, PAST_RATE = 20, 20  # s that a page's plots show; samples that they keep of a second
+PLOT_SPAN, PLOT_RATE = 20, 20  # s that a page's plots show; samples that they keep of a second
 
 
 def scene_of(mission: Mission, engine: str) -> server.FlightScene:
@@ -182,8 +182,8 @@ class FrameBuilder:
     def past(self, time: Array, samples: Array) -> list[bytes]:
         """The frames of the last seconds of a log, of samples (n, …) at times (n,) [s], oldest first."""
         last = len(time) - 1
-        every = max(round(last / (PAST_RATE * time[-1])), 1) if last else 1
-        seen = slice(max(last - PAST_RATE * PAST * every, last % every), None, every)
+        every = max(round(last / (PLOT_RATE * time[-1])), 1) if last else 1
+        seen = slice(max(last - PLOT_RATE * PLOT_SPAN * every, last % every), None, every)
         time, samples = time[seen], samples[seen]
         channels = {name: frames.components_of(samples[:, columns]) for name, columns in self._columns.items()}
         values = frames.arrays_of(frames.field_values(channels, time, self._phases))

@@ -70,7 +70,7 @@ FLOWN = {
     "map": " Circles and crosses: flights with an arm of that stiffness, stable and oscillating.",
 }
 MOST_PHASE = 120.0  # deg
-BESIDE = 1.3  # times the farthest limits, where the axis ends
+AXIS_FACTOR = 1.3  # times the farthest limits, where the axis ends
 EDGE = 0.03  # of a map's sides, beyond which a contour has no label
 
 
@@ -143,7 +143,7 @@ def draw_limits(claims: list[Claim]) -> Figure:
     figure = page_figure(0.9 + 0.28 * len(rows))
     axes = figure.add_subplot()
     ends = [1.0, *(end for claim in claims if claim.range for end in claim.range if end)]
-    axes.set_xlim(min(ends) / BESIDE, max(ends) * BESIDE)
+    axes.set_xlim(min(ends) / AXIS_FACTOR, max(ends) * AXIS_FACTOR)
     for place, found in enumerate(rows.values()):
         _limit_row(axes, -place, found)
     axes.set_yticks([-place for place in range(len(rows))], list(rows))

@@ -26,12 +26,12 @@ MOST_COLUMNS = 6  # of groups beside each other
 MOST_REASONS = 5
 MOST_REFUSED = 1_000  # rows of which the reasons are read
 MOST_LISTED = 8  # values of a key, or changes of a case
-THIN = "\u202f"
+THIN_SPACE = "\u202f"
 
 
 def count(value: int) -> str:
     """A whole number with its digits in groups of three."""
-    return f"{value:,}".replace(",", THIN)
+    return f"{value:,}".replace(",", THIN_SPACE)
 
 
 def counted(value: int, noun: str) -> str:

@@ -32,8 +32,8 @@ CAPTIONS = {
 }
 MARGIN = 0.01  # of the candidates, so that the dots of the first and the last are whole
 MOST_PANELS, ROW = 9, 1.75  # panels, in
-FEW = 1e-3  # spread of a value below which an axis is widened
-WIDE = 30.0  # ratio of costs from which an axis is logarithmic
+MIN_SPREAD = 1e-3  # spread of a value below which an axis is widened
+LOG_RATIO = 30.0  # ratio of costs from which an axis is logarithmic
 
 
 def drawn_figures(found: Tuning) -> dict[str, Figure]:
@@ -72,7 +72,7 @@ def draw_search(found: Tuning) -> Figure:
 
 
 def _log_if_wide(ax: Axes, low: float, high: float) -> None:
-    if low > 0.0 and high / low > WIDE:
+    if low > 0.0 and high / low > LOG_RATIO:
         ax.set_yscale("log")
 
 
@@ -115,7 +115,7 @@ def _distribution(ax: Axes, label: str, before: Array, after: Array) -> None:
         share = 100.0 * np.arange(len(ordered) + 1) / len(values)
         ax.step(np.concatenate([ordered[:1], ordered]), share, where="post", label=name, **look)
     low, high = (float(known.min()) * scale, float(known.max()) * scale) if len(known) else (0.0, 1.0)
-    spread = max(high - low, FEW * max(abs(low), abs(high)), 1e-12)
+    spread = max(high - low, MIN_SPREAD * max(abs(low), abs(high)), 1e-12)
     ax.set_xlim(low - 0.06 * spread, high + 0.06 * spread)
     ax.xaxis.set_major_locator(MaxNLocator(nbins=5))
     ax.set_ylim(0.0, 102.0)

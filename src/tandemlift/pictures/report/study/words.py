@@ -15,8 +15,8 @@ from tandemlift.missions.key_descriptions import sections
 from tandemlift.missions.reference import plain_name
 from tandemlift.pictures.report.page import split_unit
 
-FAR = 30.0  # times the median, from where on values are shown on a logarithmic scale
-SMALL = 0.5  # m, below which lengths are shown in mm
+LOG_RATIO = 30.0  # times the median, from where on values are shown on a logarithmic scale
+MILLIMETRE_LIMIT = 0.5  # m, below which lengths are shown in mm
 BY = ("controller", "case", "mission", "engine")  # the comparison if there are too many groups
 
 
@@ -37,7 +37,7 @@ def shown_quantity(quantity: Quantity, values: Array) -> QuantityDisplay:
     """The display of a quantity with these values; small lengths in millimetres."""
     words, unit = split_unit(quantity.name)
     known = values[np.isfinite(values)]
-    if unit == "m" and len(known) and np.quantile(np.abs(known), 0.95) < SMALL:
+    if unit == "m" and len(known) and np.quantile(np.abs(known), 0.95) < MILLIMETRE_LIMIT:
         return QuantityDisplay(words, "mm", 1e3)
     return QuantityDisplay(words, unit)
 
@@ -45,7 +45,7 @@ def shown_quantity(quantity: Quantity, values: Array) -> QuantityDisplay:
 def is_far(values: Array) -> bool:
     """Whether values (n,) are so far apart that a logarithmic scale shows them better."""
     known = values[np.isfinite(values)]
-    return bool(len(known)) and bool(known.min() > 0.0 and known.max() > FAR * np.median(known))
+    return bool(len(known)) and bool(known.min() > 0.0 and known.max() > LOG_RATIO * np.median(known))
 
 
 @functools.cache
