@@ -7,7 +7,6 @@ replaces theirs stream by stream.
 
 from __future__ import annotations
 
-import math
 import os
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -22,6 +21,7 @@ from pydantic import Field, ValidationError
 
 from tandemlift.analysis.logs.checks import check_stamps
 from tandemlift.analysis.logs.clocks import GAP, synchronised
+from tandemlift.analysis.logs.corrections import UNITS, factor_of, in_body_and_world
 from tandemlift.analysis.logs.log import MOTION, Log, Stream, log_of, stream_channel, without_repeats
 from tandemlift.apps.export.coordinate_frames import to_world
 from tandemlift.apps.export.csv_file import read_csv
@@ -34,12 +34,6 @@ from tandemlift.core.keys import Table
 from tandemlift.core.types import Array
 from tandemlift.flight.record import Flight, is_flight_file
 from tandemlift.missions.refusals import problems_in
-
-DEGREE, STANDARD_GRAVITY = math.pi / 180.0, 9.80665  # m/s² of the unit g, by definition
-UNITS = {"deg": ("rad", DEGREE), "deg/s": ("rad/s", DEGREE), "rpm": ("rad/s", math.pi / 30.0)}
-UNITS |= {"g": ("m/s^2", STANDARD_GRAVITY), "m/s²": ("m/s^2", 1.0), "kgf": ("N", STANDARD_GRAVITY)}
-UNITS |= {"mm": ("m", 1e-3), "mm/s": ("m/s", 1e-3), "ms": ("s", 1e-3), "us": ("s", 1e-6), "ns": ("s", 1e-9)}
-"""Units that columns may have beside those of streams: for which of these, and the factor."""
 
 Map = Mapping[str, Any]
 TIME = "time"  # the column of a bag's topic with the stamps of its messages [s], from the first one of all
@@ -58,6 +52,10 @@ class Way(Table):
         time: the column of stamps; of a list, the first that is there.
         time_unit: of it.
         frame: "body" for a velocity in body axes, which the attitude turns into world axes.
+        power: of the columns, before factors: 0.5 for squares of speeds.
+        turn: rotation vector [deg] of the sensor's axes from the body's: of an attitude, of what is tracked.
+        up: the axis of the world of a motion measurement that is up.
+        delay: by how much [s] its stamps are late.
     """
 
     columns: Annotated[tuple[str, ...], Field(min_length=1)]
@@ -67,6 +65,10 @@ class Way(Table):
     time: str | tuple[str, ...] = TIME
     time_unit: str = "s"
     frame: Literal["", "body"] = ""
+    power: Annotated[float, Field(gt=0.0, le=4.0)] = 1.0
+    turn: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    up: Literal["z", "y"] = "z"
+    delay: float = 0.0
 
     @property
     def topics(self) -> tuple[str, ...]:
@@ -150,19 +152,14 @@ def _way(name: str, common: Map, table: Any) -> Way:
     return way
 
 
-def _factor(unit: str) -> float:
-    """The factor from a unit to that of the stream."""
-    return UNITS[unit][1] if unit in UNITS else 1.0
-
-
 def _log(path: Path, tables: LogTables, ways: Mapping[str, list[Way]], asked: Iterable[str]) -> Log:
     """The log of a file's tables, by the first way to each stream that has numbers; it has those that are asked for."""
-    streams, in_body = dict[str, Stream](), list[str]()
+    streams, in_body, used = dict[str, Stream](), list[str](), dict[str, dict[str, Any]]()
     for name, many in ways.items():
         for way in many:
-            stream = _stream(f"{path}: stream {name}", way, tables)
+            stream = _stream(name, f"{path}: stream {name}", way, tables)
             if stream is not None:
-                streams[name] = stream
+                streams[name], used[name] = stream, way.model_dump(exclude_unset=True)
                 in_body += [name] if way.frame else []
                 break
     if missing := [name for name in asked if name not in streams] or [*ways] * (not streams):
@@ -172,10 +169,11 @@ def _log(path: Path, tables: LogTables, ways: Mapping[str, list[Way]], asked: It
     for name in in_body:
         streams[name] = _in_world(f"{path}: stream {name}", streams[name], streams.get(MOTION[2]))
     first = min(float(stream.time[0]) for stream in streams.values())
-    return Log({name: Stream(stream.time - first, stream.values) for name, stream in streams.items()}, str(path))
+    streams = {name: Stream(stream.time - first, stream.values) for name, stream in streams.items()}
+    return Log(streams, str(path), ways=used)
 
 
-def _stream(place: str, way: Way, tables: LogTables) -> Stream | None:
+def _stream(name: str, place: str, way: Way, tables: LogTables) -> Stream | None:
     """A stream by a way to it; None if its topic is not there or has no numbers."""
     parts = [
         _part(f"{place}: {topic}" if topic else place, way, tables, topic)
@@ -192,7 +190,9 @@ def _stream(place: str, way: Way, tables: LogTables) -> Stream | None:
     if isinstance(way.scale, tuple) and len(way.scale) * len(parts) != values.shape[1]:
         raise InputError(f"{place}: scale has {len(way.scale)} numbers for {values.shape[1] // len(parts)} columns")
     scale = np.array(way.scale * len(parts) if isinstance(way.scale, tuple) else way.scale)
-    return Stream(time, values * scale * _factor(way.unit))
+    values = np.maximum(values, 0.0) ** way.power if way.power != 1.0 else values
+    stream = Stream(time, values * scale * factor_of(way.unit))
+    return in_body_and_world(name, stream, turn=way.turn, up=way.up, delay=way.delay)
 
 
 def _heard(own: Array, times: Array) -> NDArray[np.bool_]:
@@ -213,7 +213,7 @@ def _part(place: str, way: Way, tables: LogTables, topic: str) -> Stream:
             raise InputError(f"{place}: {unknown('column', name, tables.columns(topic))}") from None
 
     stamps = (way.time,) if isinstance(way.time, str) else way.time
-    time = column(next((name for name in stamps if name in tables.columns(topic)), stamps[0])) * _factor(way.time_unit)
+    time = column(next((name for name in stamps if name in tables.columns(topic)), stamps[0])) * factor_of(way.time_unit)
     values = [column(name) for name in way.columns]
     rows = np.hstack([v.reshape(len(time), -1) for v in values])
     some = np.isfinite(rows).any(axis=1)

@@ -1,0 +1,367 @@
+"""What contradicts in a log, and the one change of its map with which nothing does.
+
+A contradiction between two streams does not say which of them is wrong. So every single mistake that a map can have is
+undone in turn (a sign, a unit, exchanged columns, turned axes, quadrotors or rotors in another order, another frame,
+late stamps), and all tests are made again. The cause is the change after which all agree, the best if there are more.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from tandemlift.analysis.logs.corrections import UNITS, UP, Correction, factor_of, in_words
+from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, SPEED_COMMANDS, Log, stream_channel
+from tandemlift.analysis.logs.stream_tests import KINDS, LAWS, Fit, Laws
+from tandemlift.core.errors import InputError
+from tandemlift.core.types import GRAVITY, Array
+from tandemlift.parts.mechanics.vehicle_table import VehicleTable
+
+POSITION, VELOCITY, ATTITUDE = MOTION
+FORCE, RATES = IMU
+SURE = 5.0  # standard deviations
+LEANS = 10.0  # deg that the mean specific force may be off the vertical
+NOTHING, ALIKE = 0.3, 0.6  # correlation below which two streams have nothing in common; from which a lag is told
+STILL_TOLD = 0.5  # standard deviation of a scale, up to which a law tells something
+WORST = 1.5  # part of a square that a law leaves, at most: more is no worse
+MOST_ORDERS = 24  # of quadrotors that are tried
+NEARLY = 0.15  # relative: a scale so near that of a unit is it
+MEANINGS = {
+    "turn": "the turn of the attitude against the gyroscope",
+    "path": "the change of the position against the velocity",
+    "speed": "the change of the velocity against the accelerometer in world axes",
+    "load": "the sum of the joints' forces against the payload's mass times the accelerometer",
+    "lever": "the moment of the joints about the payload against its inertia times the angular acceleration",
+    "lift": "the accelerometer against the commanded thrusts over the mass",
+    "twist": "the angular acceleration against that of the commanded thrusts",
+}
+
+
+class Finding(NamedTuple):
+    """A line of the table of tests: what was found of streams, beside what is expected."""
+
+    stream: str
+    test: str
+    found: str
+    expected: str
+    verdict: str
+
+
+class Cause(NamedTuple):
+    """A mistake of a map: what it is, and what undoes it."""
+
+    words: str
+    corrections: tuple[Correction, ...]
+
+
+def findings_of(laws: Laws, log: Log, first: Sequence[str] = ()) -> Iterator[Finding]:
+    """The table of all tests of a log, those of some laws first."""
+    for names in (first, [name for name in LAWS if name not in first]):
+        for name, fit in laws.fits(log, names):
+            yield from _of_law(name, ", ".join(_streams(log, name)), fit)
+        if names is first:
+            yield from _of_means(laws, log)
+
+
+def _streams(log: Log, law: str) -> list[str]:
+    """The streams of a law in a log."""
+    commands = COMMANDS if COMMANDS in log else SPEED_COMMANDS
+    return [commands if stream == COMMANDS else stream for stream in LAWS[law]]
+
+
+def _of_means(laws: Laws, log: Log) -> Iterator[Finding]:
+    """What gravity tells of means."""
+    commands = COMMANDS if COMMANDS in log else SPEED_COMMANDS
+    constants = laws.constants(log)
+    if "up" in constants:
+        up = constants["up"]
+        angle = math.degrees(math.acos(min(max(up[2] / np.linalg.norm(up), -1.0), 1.0)))
+        good = angle < LEANS and 0.85 < np.linalg.norm(up) < 1.15
+        axis = int(np.argmax(np.abs(up)))
+        found = f"{up[axis]:+.2f} g along {'xyz'[axis]} of the world, {angle:.0f}° off z"
+        yield Finding(f"{FORCE}, {ATTITUDE}", "gravity", found, "+1 g along z", _verdict(good))
+    if "load" in constants:
+        whole = constants["load"].sum(axis=0)
+        flat = float(np.linalg.norm(whole[:2]))
+        good = -0.5 < whole[2] < 2.5 and flat < 0.8
+        found = f"{whole[2]:+.2f} of the payload's weight along z, {flat:.2f} across"
+        yield Finding(JOINTS[0], "weight", found, "1, or 0 after a tare; 0 across", _verdict(good))
+    if "lift" in constants and np.isfinite(constants["lift"]).all():
+        ratio = float(constants["lift"][0])
+        yield Finding(commands, "hover", f"{ratio:.3g} of the weight", "0.5 to 2", _verdict(0.5 < ratio < 2.0))
+
+
+def _verdict(good: bool) -> str:
+    return "agrees" if good else "contradicts"
+
+
+def _of_law(name: str, streams: str, fit: Fit | None) -> Iterator[Finding]:
+    kind, test = KINDS[name], MEANINGS[name]
+    low, high = kind.scales
+    if fit is None or not fit.told.any():
+        exact = name in ("turn", "path")
+        if fit is not None and exact and np.any(fit.moves & (fit.left > 0.7)):
+            yield Finding(streams, test, "nothing in common", "equal", "contradicts")
+        else:
+            yield Finding(streams, test, "hardly moved", "", "not told")
+        return
+    off = [
+        i
+        for i in range(3)
+        if fit.told[i]
+        and not (fit.scale[i] + SURE * fit.scale_sd[i] > low and fit.scale[i] - SURE * fit.scale_sd[i] < high)
+    ]
+    apart = [i for i in range(3) if name in ("turn", "path") and fit.moves[i] and fit.left[i] > 0.8]
+    shown = ", ".join(f"{'xyz'[i]} {fit.scale[i]:.2f}" for i in range(3) if fit.told[i] or i in apart)
+    yield Finding(streams, test, f"scale {shown}", f"{low:g} to {high:g}", _verdict(not off and not apart))
+    least, most = kind.lags
+    if fit.alike > ALIKE and not off:
+        good = least - SURE * fit.lag_sd < fit.lag < most + SURE * fit.lag_sd
+        found = f"late by {1e3 * fit.lag:.0f} ms"
+        yield Finding(streams, f"lag of {test}", found, f"{1e3 * least:.0f} to {1e3 * most:.0f} ms", _verdict(good))
+    angle, sd = math.degrees(float(np.linalg.norm(fit.turn))), math.degrees(fit.turn_sd)
+    if kind.turn < math.inf and sd < 0.6 * kind.turn:
+        good = angle < kind.turn + SURE * sd
+        yield Finding(streams, f"axes of {test}", f"{axis_and_angle(fit.turn)}", f"within {kind.turn:g}°", _verdict(good))
+
+
+def axis_and_angle(turn: Array) -> str:
+    """A rotation vector [rad] in words."""
+    angle = float(np.linalg.norm(turn))
+    axis = turn / max(angle, 1e-12)
+    near = int(np.argmax(np.abs(axis)))
+    if abs(axis[near]) > 0.95:
+        return f"turned by {math.copysign(math.degrees(angle), axis[near]):.0f}° about {'xyz'[near]}"
+    return f"turned by {math.degrees(angle):.0f}° about {np.round(axis, 2).tolist()}"
+
+
+def check_streams(log: Log, table: VehicleTable, *, tell: bool = True) -> tuple[Finding, ...]:
+    """The table of all tests of a log; a log that contradicts itself is refused with the likely cause.
+
+    Args:
+        log: of about such a vehicle.
+        table: of the vehicle.
+        tell: whether the cause is looked for.
+
+    Raises:
+        InputError: tests contradict; the message names what, and what to write into the map.
+    """
+    laws = Laws(table)
+    table_of = tuple(findings_of(laws, log))
+    wrong = [one for one in table_of if one.verdict == "contradicts"]
+    if not wrong:
+        return table_of
+    first = wrong[0]
+    said = f"{log.source}: stream {first.stream}: {first.test}: {first.found}; expected: {first.expected}"
+    found = causes_of(log, laws, wrong) if tell else []
+    if not found:
+        others = "".join(f"; {one.test}: {one.found}" for one in wrong[1:3])
+        raise InputError(f"{said}{others}. No single change of the map makes it agree")
+    cause = found[0]
+    raise InputError(f"{said}. It seems to be {cause.words}: {in_words(cause.corrections, log)}")
+
+
+def causes_of(log: Log, laws: Laws, wrong: Sequence[Finding]) -> list[Cause]:
+    """The changes with which no test contradicts, the best first."""
+    concerned = {name for one in wrong for name in one.stream.split(", ")}
+    first = [name for name in LAWS if any(MEANINGS[name] in one.test for one in wrong)]
+    before = {name for name, fit in laws.fits(log) if fit is not None and fit.told.any()}
+    found = list[tuple[float, int, Cause]]()
+    for number, cause in enumerate(candidates(log, laws, concerned)):
+        other = log
+        for correction in cause.corrections:
+            other = correction.applied(other)
+        if any(one.verdict == "contradicts" for one in findings_of(laws, other, first)):
+            continue
+        fits = dict(laws.fits(other))
+        if all((fit := fits.get(name)) is not None and fit.scale_sd.min() < STILL_TOLD for name in before):
+            found.append((_unexplained(fits), number, cause))
+    return [cause for *_, cause in sorted(found, key=lambda item: item[:2])]
+
+
+def _unexplained(fits: Mapping[str, Fit | None]) -> float:
+    """The parts of squares that the laws leave, summed over axes."""
+    return sum(float(np.sum(np.minimum(fit.left, WORST))) for fit in fits.values() if fit is not None)
+
+
+SIGNS = tuple(itertools.product((1.0, -1.0), repeat=3))
+ORDERS = tuple(itertools.permutations(range(3)))
+ROTATIONS = tuple(
+    (order, signs)
+    for order in ORDERS
+    for signs in SIGNS
+    if np.linalg.det(np.diag(signs) @ np.eye(3)[list(order)]) > 0.0 and (order, signs) != (ORDERS[0], SIGNS[0])
+)
+
+
+def _axes(order: Sequence[int], signs: Sequence[float]) -> str:
+    """In words: signs and exchanged axes of a vector."""
+    negative = [a for a, s in zip("xyz", signs, strict=True) if s < 0.0]
+    if tuple(order) == (0, 1, 2):
+        if negative == ["y", "z"]:
+            return "of front, right, down"
+        return f"of the other sign{'' if len(negative) == 3 else f' along {chr(32).join(negative)}'}"
+    swapped = f"along other axes: columns in the order {', '.join('xyz'[i] for i in order)}"
+    return swapped + (f", {' and '.join(negative)} negative" if negative else "")
+
+
+def _mapped(name: str, width: int, order: Sequence[int], signs: Sequence[float], only: Iterable[int] | None = None) -> Correction:
+    """Axes of a stream in another order and with other signs; of joints, of some quadrotors."""
+    columns, factors = list(range(width)), [1.0] * width
+    for i in range(width // 3) if only is None else only:
+        for axis in range(3):
+            columns[3 * i + axis], factors[3 * i + axis] = 3 * i + order[axis], signs[axis]
+    return Correction(name, tuple(columns), tuple(factors))
+
+
+def candidates(log: Log, laws: Laws, concerned: Iterable[str]) -> Iterator[Cause]:
+    """Single mistakes of a map that may be in some streams of a log."""
+    concerned = [name for name in log if name in {*concerned}]
+    yield from _units(log, laws, concerned)
+    yield from _late(log, laws, concerned)
+    for name in (RATES, FORCE, POSITION, VELOCITY):
+        if name in concerned:
+            for order in ORDERS:
+                for signs in SIGNS:
+                    if (order, signs) != (ORDERS[0], SIGNS[0]):
+                        yield Cause(f"{_axes(order, signs)}", (_mapped(name, 3, order, signs),))
+    if VELOCITY in concerned and ATTITUDE in log:
+        yield Cause("along body axes", (Correction(VELOCITY, frame="body"),))
+        yield Cause("along world axes already", (Correction(VELOCITY, frame="world"),))
+    if {*IMU} & {*concerned}:
+        for order, signs in ROTATIONS:
+            yield Cause(f"of an IMU {_axes(order, signs)}", tuple(_mapped(name, 3, order, signs) for name in IMU))
+    if {*MOTION} & {*concerned}:
+        yield from _attitudes(log, laws)
+    if {*JOINTS} & {*concerned}:
+        yield from _joints(log)
+    for name in (COMMANDS, SPEED_COMMANDS):
+        if name in concerned:
+            yield from _commands(name, log[name].values.shape[1])
+
+
+def _units(log: Log, laws: Laws, concerned: Sequence[str]) -> Iterator[Cause]:
+    """Other units of a stream, and powers of commands."""
+    for name in concerned:
+        if name == ATTITUDE:
+            continue
+        own = stream_channel(name).unit
+        now = factor_of(log.ways.get(name, {}).get("unit", "1"))
+        units = [("1", 1.0), *((unit, factor) for unit, (other, factor) in UNITS.items() if other == own)]
+        for unit, factor in units:
+            if not math.isclose(factor, now, rel_tol=1e-6):
+                words = f"in {own} already" if unit == "1" else f"in {unit}"
+                yield Cause(words, (Correction(name, factor=(factor / now,)),))
+        if now == 1.0:
+            for unit, factor in units[1:]:
+                yield Cause(f"in {own} already, and scaled as {unit}", (Correction(name, factor=(1.0 / factor,)),))
+
+
+def _late(log: Log, laws: Laws, concerned: Sequence[str]) -> Iterator[Cause]:
+    """Late stamps of a stream, or of all of a source."""
+    groups = [(name,) for name in concerned] + [
+        tuple(name for name in group if name in log) for group in (MOTION, JOINTS, IMU) if {*group} & {*concerned}
+    ]
+    fits = dict(laws.fits(log))
+    for group in groups:
+        lags = set[float]()
+        for name, fit in fits.items():
+            streams = LAWS[name]
+            if fit is None:
+                continue
+            if {*streams[:1]} & {*group} or (name == "lever" and {*JOINTS} & {*group}):
+                lags.add(fit.lag)
+            if {*streams[1:]} & {*group} or (COMMANDS in streams and SPEED_COMMANDS in group):
+                lags.add(-fit.lag)
+        for lag in lags:
+            if abs(lag) > 0.008:
+                words = f"stamped {1e3 * abs(lag):.0f} ms {'late' if lag > 0.0 else 'early'}"
+                yield Cause(words, tuple(Correction(name, delay=lag) for name in group))
+
+
+def _attitudes(log: Log, laws: Laws) -> Iterator[Cause]:
+    """Other quaternions, and other axes of the world and of what is tracked."""
+    there = [name for name in MOTION if name in log]
+    if ATTITUDE in log:
+        for order in ((0, 1, 2, 3), (3, 0, 1, 2), (1, 2, 3, 0)):
+            turned = "x, y, z, w: give the columns in the order w, x, y, z" if order != (0, 1, 2, 3) else ""
+            for axes in ORDERS:
+                for signs in SIGNS:
+                    whole, factors = [order[0], *(order[1 + i] for i in axes)], (1.0, *signs)
+                    if whole == [0, 1, 2, 3] and signs == SIGNS[0]:
+                        continue
+                    if signs == (-1.0, -1.0, -1.0) and axes == ORDERS[0]:
+                        words = " from world to body"
+                    elif signs == (1.0, -1.0, -1.0) and axes == ORDERS[0]:
+                        words = " of front, right, down in north, east, down"
+                    else:
+                        words = f" {_axes(axes, signs)}" if axes != ORDERS[0] or signs != SIGNS[0] else ""
+                    yield Cause(" and".join(filter(None, (turned, words))).strip(), (Correction(ATTITUDE, tuple(whole), factors),))
+        for axis in range(3):
+            for angle in (90.0, -90.0, 180.0):
+                turn = tuple(angle * (i == axis) for i in range(3))
+                yield Cause(f"of axes that are turned by {angle:.0f}° about {'xyz'[axis]}", (_body_turn(turn),))
+        fit = dict(laws.fits(log)).get("turn")
+        if fit is not None and fit.alike > ALIKE:
+            turn = tuple(np.degrees(-fit.turn).tolist())
+            yield Cause(f"of axes that are {axis_and_angle(-fit.turn)} against the gyroscope's", (_body_turn(turn),))
+            yield Cause(f"a gyroscope of axes that are {axis_and_angle(fit.turn)} against the attitude's", (Correction(RATES, turn=tuple(np.degrees(fit.turn).tolist())),))
+    for group in ([ATTITUDE], there, [name for name in there if name != ATTITUDE]):
+        if group and all(name in log for name in group):
+            for up in UP:
+                yield Cause(f"of a world with {up} up", tuple(Correction(name, up=up) for name in group))
+            for flip, order, factors in (("x", (1, 0, 3, 2), (-1.0, 1.0, -1.0, 1.0)), ("y", (2, 3, 0, 1), (-1.0, 1.0, 1.0, -1.0)), ("z", (3, 2, 1, 0), (-1.0, -1.0, 1.0, 1.0))):
+                signs = tuple(1.0 if a == flip else -1.0 for a in "xyz")
+                words = "of a world with z down" if flip == "x" else f"of a world turned by 180° about {flip}"
+                yield Cause(words, tuple(
+                    Correction(name, order, factors) if name == ATTITUDE else _mapped(name, 3, ORDERS[0], signs) for name in group
+                ))
+
+
+def _body_turn(turn: Sequence[float]) -> Correction:
+    """The correction of an attitude whose axes are turned by a rotation vector [deg]; half turns are signs."""
+    for axis, (order, factors) in enumerate((((1, 0, 3, 2), (-1.0, 1.0, 1.0, -1.0)), ((2, 3, 0, 1), (-1.0, -1.0, 1.0, 1.0)), ((3, 2, 1, 0), (-1.0, 1.0, -1.0, 1.0)))):
+        if np.allclose(np.abs(turn), 180.0 * np.eye(3)[axis], atol=4.0):
+            return Correction(ATTITUDE, order, factors)
+    x, y, z = turn
+    return Correction(ATTITUDE, turn=(x, y, z))
+
+
+def _joints(log: Log) -> Iterator[Cause]:
+    """Other signs, quadrotors and axes of the joints' sensors."""
+    there = [name for name in JOINTS if name in log]
+    count = log[there[0]].values.shape[1] // 3
+    groups = [[name] for name in there] + ([there] if len(there) > 1 else [])
+    for group in groups:
+        yield Cause("of the other sign", tuple(Correction(name, factor=(-1.0,)) for name in group))
+        for order in itertools.islice(itertools.permutations(range(count)), 1, MOST_ORDERS):
+            columns = tuple(3 * i + axis for i in order for axis in range(3))
+            words = f"of quadrotors in the order {', '.join(map(str, order))}"
+            yield Cause(words, tuple(Correction(name, columns) for name in group))
+    quadrotors: list[list[int] | None] = [None, *([i] for i in range(count) if count > 1)]
+    for group, only in itertools.product(groups, quadrotors):
+        if len(group) > 1 and only is None and count > 1:
+            pass
+        for order, signs in itertools.product(ORDERS, SIGNS):
+            if (order, signs) in ((ORDERS[0], SIGNS[0]), (ORDERS[0], SIGNS[-1]) if only is None else ()):
+                continue
+            where = "" if only is None else f" at quadrotor {only[0]}"
+            found = tuple(_mapped(name, 3 * count, order, signs, only) for name in group)
+            yield Cause(f"{_axes(order, signs)}{where}", found)
+
+
+def _commands(name: str, width: int) -> Iterator[Cause]:
+    """Quadrotors and rotors in another order, other powers."""
+    for order in itertools.islice(itertools.permutations(range(width // 4)), 1, MOST_ORDERS):
+        columns = tuple(4 * i + rotor for i in order for rotor in range(4))
+        yield Cause(f"of quadrotors in the order {', '.join(map(str, order))}", (Correction(name, columns),))
+    for only in [None, *(range(width // 4) if width > 4 else ())]:
+        for order in itertools.islice(itertools.permutations(range(4)), 1, None):
+            columns = tuple(4 * i + (order[rotor] if only in (None, i) else rotor) for i in range(width // 4) for rotor in range(4))
+            where = "" if only is None else f" of quadrotor {only}"
+            yield Cause(f"of rotors{where} in the order {', '.join(map(str, order))}", (Correction(name, columns),))
+    yield Cause("of squares of what is expected", (Correction(name, power=0.5),))

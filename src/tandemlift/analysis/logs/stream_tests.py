@@ -1,0 +1,449 @@
+"""Tests of the streams of a log against each other: what rigid bodies, gravity and rotors say of what each sensor is.
+
+All streams are brought to one grid of time and smoothed alike, by a triangle of `2 SMOOTH`. Then, with y and x two
+sides of a law that holds for every rigid vehicle,
+
+    the turn of the attitude        =  gyroscope                                       (body axes)
+    the change of the position      =  velocity                                        (world axes)
+    the change of the velocity + g  =  R · accelerometer, but for the place of the unit (world axes)
+    the sum of the joints' forces   =  payload's mass · accelerometer                  (body axes)
+    Σ (M + r × F) of the joints     =  J α + m c × f                                   (body axes)
+    accelerometer                   =  sum of the thrusts over the mass                (z)
+    angular acceleration            =  J⁻¹ B thrusts                                   (body axes)
+
+a 3 × 3 matrix A is fitted, y = A x, at the lag of the largest correlation: it should be the identity, or what the
+mission says of masses and inertias, within a factor. Where the motion tells nothing, nothing is said. Laws with forces
+hold in changes within `SLOW` only: a person's push is slower.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tandemlift.analysis.logs.log import (
+    COMMANDS,
+    IMU,
+    JOINTS,
+    MOTION,
+    PUSH,
+    SPEED_COMMANDS,
+    Log,
+    Stream,
+    conjugate,
+    quaternion_product,
+    rotated,
+)
+from tandemlift.core.types import GRAVITY, Array
+from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle_table import VehicleTable
+
+POSITION, VELOCITY, ATTITUDE = MOTION
+FORCE, RATES = IMU
+CELL = 0.01  # s of the grid
+SMOOTH = 0.05  # s, half the width of the triangle
+SLOW = 0.8  # s
+LONGEST = 120.0  # s of a log that are looked at
+REACH = 0.4  # s, of lags
+GAP = 0.06  # s: a longer one is left out
+FEWEST = 200  # cells
+CLEAR = 8.0  # times the noise's square: a signal
+PART = 1.0  # s
+TOLD = 0.12  # standard deviation of a scale that is known
+
+Truths = NDArray[np.bool_]
+
+
+class Kind(NamedTuple):
+    """What is expected of a law.
+
+    Attributes:
+        scales: the least and the largest scale.
+        slow: time [s] over which changes count.
+        smooth: half the width of its smoothing [s].
+        lags: the least and the largest lag [s].
+        turn: the largest angle [deg] between the axes of both sides; none is told of pushed ones.
+        pushed: whether what is not measured, as a push, acts on it.
+    """
+
+    scales: tuple[float, float]
+    slow: float
+    smooth: float
+    lags: tuple[float, float] = (-0.012, 0.012)
+    turn: float = math.inf
+    pushed: bool = False
+
+
+KINDS = {
+    "turn": Kind((0.8, 1.25), 4.0, 2.0 * SMOOTH, turn=5.0),
+    "path": Kind((0.8, 1.25), 20.0, 4.0 * SMOOTH, turn=15.0, lags=(-0.06, 0.06)),
+    "speed": Kind((0.6, 1.6), 4.0, 4.0 * SMOOTH, turn=15.0, lags=(-0.03, 0.03)),
+    "load": Kind((0.4, 2.5), SLOW, SMOOTH, pushed=True),
+    "lever": Kind((0.4, 2.5), SLOW, SMOOTH, pushed=True),
+    "lift": Kind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
+    "twist": Kind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
+}
+
+
+class Fit(NamedTuple):
+    """The fit of y = A x, axis by axis; A is expected to be the identity.
+
+    Attributes:
+        lag: by how much [s] y is later than x.
+        lag_sd: its standard deviation [s].
+        alike: the largest correlation of any pair of axes over all lags, 0 to 1.
+        told: whether the scale is known (3,).
+        moves: whether y moves well above its noise (3,).
+        scale: A's diagonal, corrected for the noise of x (3,).
+        scale_sd: its standard deviations (3,).
+        matrix: A (3, 3).
+        left: the part of the square of y that x leaves, with scales that are allowed (3,).
+        turn: the rotation vector [rad] by which x must be turned to agree with y (3,).
+        turn_sd: the largest standard deviation of its components [rad].
+    """
+
+    lag: float
+    lag_sd: float
+    alike: float
+    told: Truths
+    moves: Truths
+    scale: Array
+    scale_sd: Array
+    matrix: Array
+    left: Array
+    turn: Array
+    turn_sd: float
+
+
+def smoothed(v: Array, cells: int) -> Array:
+    """A signal (n, …) averaged twice over some cells."""
+    kernel, beside = np.convolve(np.full(cells, 1.0 / cells), np.full(cells, 1.0 / cells)), ((cells - 1, cells - 1), (0, 0))
+    return np.stack([np.convolve(c, kernel, "valid") for c in np.pad(v, beside, "edge").T], axis=1)
+
+
+def quick(v: Array, slow: float) -> Array:
+    """A signal (n, …) less its mean over a time [s] about each cell."""
+    width = min(round(slow / CELL), len(v) - 2) | 1
+    ones = np.convolve(np.ones(len(v)), np.ones(width), "same")
+    return v - np.stack([np.convolve(c, np.ones(width), "same") for c in v.T], axis=1) / ones[:, None]
+
+
+@dataclass
+class Grid:
+    """The streams of a log on one grid of time.
+
+    Args:
+        log: with two streams or more.
+        known: means and turns that were formed before.
+    """
+
+    log: Log
+    known: dict[tuple[object, ...], tuple[Array, Stream]] = field(default_factory=dict)
+    begin: float = field(init=False)
+    count: int = field(init=False)
+
+    def __post_init__(self) -> None:
+        names = [n for n in (*IMU, *MOTION, *JOINTS, COMMANDS, SPEED_COMMANDS) if n in self.log]
+        begins = [self.log[n].time[0] for n in names]
+        ends = [self.log[n].time[-1] for n in names]
+        self.begin = float(max(begins)) + CELL
+        self.count = max(0, int((min(float(min(ends)), self.begin + LONGEST) - self.begin) / CELL) - 1)
+        rates = [self.log.rate(n) for n in names if n not in (COMMANDS, SPEED_COMMANDS)]
+        self.cells = max(round(SMOOTH / CELL), math.ceil(2.0 / (max(min(rates, default=100.0), 1.0) * CELL)))
+
+    @property
+    def edges(self) -> Array:
+        """The ends of the cells [s] (count + 1)."""
+        return self.begin + CELL * np.arange(self.count + 1)
+
+    def there(self, cells: int, *names: str) -> Truths:
+        """Where no stream of these has a gap within some cells."""
+        good = np.ones(self.count, bool)
+        for name in names:
+            time = self.log[name].time
+            wide = np.diff(time) > max(GAP, 4.0 * float(np.median(np.diff(time))))
+            for a, b in zip(time[:-1][wide], time[1:][wide], strict=True):
+                first, last = (int((t - self.begin) / CELL) for t in (a, b))
+                good[max(0, first - cells) : max(0, last + cells)] = False
+        good[:cells] = good[-cells:] = False
+        return good
+
+    def mean(self, name: str) -> Array:
+        """The means of a stream over the cells (count, width)."""
+        return self._kept("mean", name, self._mean)
+
+    def _kept(self, what: str, name: str, formed: Callable[[str], Array]) -> Array:
+        stream = self.log[name]
+        key = (what, self.begin, self.count, id(stream.time), id(stream.values))
+        if key not in self.known:
+            self.known[key] = formed(name), stream
+        return self.known[key][0]
+
+    def _mean(self, name: str) -> Array:
+        time, v = self.log[name]
+        areas = 0.5 * (v[1:] + v[:-1]) * np.diff(time)[:, None]
+        total = np.vstack([np.zeros(v.shape[1]), np.cumsum(areas, axis=0)])
+        at = np.stack([np.interp(self.edges, time, c) for c in total.T], axis=1)
+        return np.asarray(np.diff(at, axis=0) / CELL)
+
+    def change(self, name: str) -> Array:
+        """The change of a stream per second over the cells (count, width)."""
+        return self._kept("change", name, self._change)
+
+    def _change(self, name: str) -> Array:
+        time, v = self.log[name]
+        at = np.stack([np.interp(self.edges, time, c) for c in v.T], axis=1)
+        return np.asarray(np.diff(at, axis=0) / CELL)
+
+    @cached_property
+    def attitudes(self) -> Array:
+        """The attitude at the ends of the cells (count + 1, 4)."""
+        return self._kept("attitude", ATTITUDE, self._attitude)
+
+    def _attitude(self, name: str) -> Array:
+        time, q = self.log[name]
+        size = np.maximum(np.linalg.norm(q, axis=1, keepdims=True), 1e-12)
+        q = q / size
+        flips = np.cumprod(np.where(np.sum(q[1:] * q[:-1], axis=1) < 0.0, -1.0, 1.0))
+        q = q * np.insert(flips, 0, 1.0)[:, None]
+        at = np.stack([np.interp(self.edges, time, c) for c in q.T], axis=1)
+        return np.asarray(at / np.maximum(np.linalg.norm(at, axis=1, keepdims=True), 1e-12))
+
+    def noise(self, name: str, cells: int, *, derivative: bool = False) -> Array:
+        """The variance that the white noise of a stream's samples leaves after smoothing (3,): of joints, of their sum."""
+        square, per = self._kept("noise", name, self._noise)[:3], float(self._kept("noise", name, self._noise)[3])
+        width = cells * CELL
+        return np.asarray(square * per * (2.0 / width**3 if derivative else 2.0 / (3.0 * width)))
+
+    def _noise(self, name: str) -> Array:
+        """Of the white noise of a stream's samples the variances (3), of joints of their sum; the samples' interval."""
+        time, v = self.log[name]
+        each = 1.4826 * np.median(np.abs(np.diff(v, 2, axis=0)), axis=0) / math.sqrt(6.0) if len(v) > 2 else 0.0 * v[0]
+        if name == ATTITUDE:
+            each = np.full(3, 2.0 * math.sqrt(float(np.sum(each**2)) / 3.0))
+        square = np.sum(np.square(each).reshape(-1, 3), axis=0)
+        return np.append(square, np.median(np.diff(time)) if len(time) > 1 else 1.0)
+
+    def turn(self, q: Array) -> Array:
+        """The rates [rad/s] of attitudes at the ends of the cells, body axes."""
+        change = quaternion_product(conjugate(q[:-1]), q[1:])
+        return np.asarray(2.0 * change[:, 1:] * np.sign(change[:, :1]) / CELL)
+
+
+def fitted(y: Array, x: Array, good: Truths, noise: tuple[Array, Array], kind: Kind) -> Fit | None:
+    """The fit of y = A x, both (n, 3); None if the grid is too short.
+
+    Args:
+        y: one side.
+        x: the other.
+        good: which cells count (n,).
+        noise: variances of the noise of y and of x (3,) each.
+        kind: of the law.
+    """
+    if good.sum() < FEWEST:
+        return None
+    a, b = (quick(v, kind.slow) * good[:, None] for v in (y, x))
+    lag, alike = _lag_of(a, b)
+    shift = round(lag / CELL)
+    cut = slice(max(shift, 0), len(a) + min(shift, 0)), slice(max(-shift, 0), len(a) - max(shift, 0))
+    both = good[cut[0]] & good[cut[1]]
+    a, b = a[cut[0]][both], b[cut[1]][both]
+    n = len(a)
+    if n < FEWEST:
+        return None
+    own = max(n * CELL / (2.0 * kind.smooth), 10.0)  # samples that are independent
+    gram, cross = b.T @ b, b.T @ a
+    A = np.linalg.solve(gram + (1e-9 * np.trace(gram) + 1e-300) * np.eye(3), cross).T
+    power_y, power_x = np.mean(a * a, axis=0), np.mean(b * b, axis=0)
+    scale = _scales(a, b, noise[1]) if kind.pushed else np.diag(cross) / n / np.maximum(power_x - noise[1], 0.3 * power_x + 1e-300)
+    rest = np.mean((a - b * scale) ** 2, axis=0)
+    scale_sd = np.sqrt(rest / np.maximum(power_x, 1e-300) / own)
+    told = (scale_sd < TOLD) & (power_x > noise[1])
+    left = np.mean((a - b * np.clip(scale, *kind.scales)) ** 2, axis=0) / np.maximum(power_y, 1e-300)
+    slope = np.mean(np.gradient(a, CELL, axis=0) ** 2, axis=0)
+    whole = np.mean((a - b @ A.T) ** 2, axis=0)
+    lag_sd = 1.0 / math.sqrt(max(float(np.sum(slope / np.maximum(whole, 1e-300))) * own, 1e-300))
+    turn, turn_sd = _turn_of(a, b, whole, own)
+    return Fit(lag, lag_sd, alike, told, power_y > CLEAR * noise[0], scale, scale_sd, A, left, turn, turn_sd)
+
+
+def _scales(a: Array, b: Array, noise: Array) -> Array:
+    """The slopes (3,) of a by b that half of the parts of `PART` are below, by weight: a push is in few of them."""
+    parts = max(1, round(len(a) * CELL / PART))
+    power = np.array([np.mean(p * p, axis=0) for p in np.array_split(b, parts)])
+    cross = np.array([np.mean(p * q, axis=0) for p, q in zip(np.array_split(a, parts), np.array_split(b, parts), strict=True)])
+    power = np.maximum(power - noise, 0.3 * power + 1e-300)
+    found = []
+    for c, w in zip(cross.T, power.T, strict=True):
+        order = np.argsort(c / w)
+        weight = np.cumsum(np.minimum(w, 3.0 * np.median(w))[order])
+        found.append((c / w)[order][int(np.searchsorted(weight, 0.5 * weight[-1]))])
+    return np.array(found)
+
+
+def _turn_of(a: Array, b: Array, rest: Array, own: float) -> tuple[Array, float]:
+    """(The rotation vector [rad] that turns b into a at best, the largest standard deviation of its components)."""
+    U, _, V = np.linalg.svd(a.T @ b)
+    R = U @ np.diag([1.0, 1.0, np.linalg.det(U @ V)]) @ V
+    power = b.T @ b / len(b)
+    information = (np.trace(power) * np.eye(3) - power) * own / max(float(np.mean(rest)), 1e-300)
+    sd = math.sqrt(float(np.linalg.eigvalsh(np.linalg.inv(information + 1e-9 * np.eye(3)))[-1]))
+    return rotation_vector(R), sd
+
+
+def rotation_vector(R: Array) -> Array:
+    """The rotation vector [rad] of a rotation (3, 3)."""
+    values = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+    angle = math.acos(min(max(0.5 * (float(np.trace(R)) - 1.0), -1.0), 1.0))
+    if math.sin(angle) > 1e-6:
+        return np.asarray(values * (angle / (2.0 * math.sin(angle))))
+    if angle < 1.0:
+        return np.zeros(3)
+    column = R[:, int(np.argmax(np.diag(R)))] + np.eye(3)[int(np.argmax(np.diag(R)))]
+    return np.asarray(angle * column / np.linalg.norm(column))
+
+
+def _lag_of(y: Array, x: Array) -> tuple[float, float]:
+    """(The lag [s] of y against x of the largest correlation, whatever the axes; that correlation)."""
+    reach = min(round(REACH / CELL), len(y) // 3)
+    places, n = np.arange(-reach, reach + 1), len(y)
+    cross = np.array([y[max(k, 0) : n + min(k, 0)].T @ x[max(-k, 0) : n - max(k, 0)] for k in places])
+    own = np.sum(y * y, axis=0)
+    alike = np.sum(cross**2 / np.maximum(np.sum(x * x, axis=0), 1e-300), axis=(1, 2)) / max(float(np.sum(own)), 1e-300)
+    best = int(np.argmax(alike))
+    lag = float(places[best])
+    if 0 < best < len(places) - 1:
+        left, here, right = alike[best - 1 : best + 2]
+        lag += 0.5 * (left - right) / min(left - 2.0 * here + right, -1e-300)
+    return CELL * lag, math.sqrt(min(max(float(alike[best]), 0.0), 1.0))
+
+
+LAWS = {
+    "turn": (ATTITUDE, RATES),
+    "path": (POSITION, VELOCITY),
+    "speed": (VELOCITY, FORCE, ATTITUDE),
+    "load": (JOINTS[0], FORCE),
+    "lever": (*JOINTS, RATES),
+    "lift": (FORCE, COMMANDS),
+    "twist": (RATES, COMMANDS),
+}
+"""The streams of each law: those of y, then those of x."""
+
+
+class Laws:
+    """The laws of a vehicle, fitted to logs.
+
+    Args:
+        table: of about such a vehicle.
+    """
+
+    def __init__(self, table: VehicleTable) -> None:
+        self.table, self.vehicle = table, Vehicle.from_settings(table)
+        self.thrust_constants = np.array([q.thrust_constant for q in table.quadrotors for _ in range(4)])
+        self.joints = np.array([q.joint_position for q in table.quadrotors])
+        self._means = dict[tuple[object, ...], tuple[Array, Stream]]()
+        self._known = dict[tuple[object, ...], tuple[Fit | None, list[Stream]]]()  # streams are kept: ids stay theirs
+
+    def fits(self, log: Log, names: Iterable[str] = LAWS) -> Iterator[tuple[str, Fit | None]]:
+        """The fit of each law whose streams the log has, by its name."""
+        commands = COMMANDS if COMMANDS in log else SPEED_COMMANDS
+        grid = Grid(log, self._means)
+        for name in names:
+            streams = LAWS[name]
+            own = [commands if stream == COMMANDS else stream for stream in streams]
+            if all(stream in log for stream in own):
+                key = (name, grid.begin, grid.count, *(x for stream in own for x in map(id, log[stream])))
+                if key not in self._known:
+                    self._known[key] = getattr(self, f"_{name}")(grid, commands), [log[stream] for stream in own]
+                yield name, self._known[key][0]
+
+    def _turn(self, g: Grid, _: str) -> Fit | None:
+        c = 2 * g.cells
+        y, x = smoothed(g.turn(g.attitudes), c), smoothed(g.mean(RATES), c)
+        noise = g.noise(ATTITUDE, c, derivative=True), g.noise(RATES, c)
+        return fitted(y, x, g.there(c, ATTITUDE, RATES), noise, KINDS["turn"])
+
+    def _path(self, g: Grid, _: str) -> Fit | None:
+        c = 4 * g.cells
+        y, x = smoothed(g.change(POSITION), c), smoothed(g.mean(VELOCITY), c)
+        noise = g.noise(POSITION, c, derivative=True), g.noise(VELOCITY, c)
+        return fitted(y, x, g.there(c, POSITION, VELOCITY), noise, KINDS["path"])
+
+    def _speed(self, g: Grid, _: str) -> Fit | None:
+        c = 4 * g.cells
+        y, x = smoothed(g.change(VELOCITY), c), smoothed(rotated(g.attitudes[:-1], g.mean(FORCE)), c)
+        tilt = g.noise(ATTITUDE, c) * GRAVITY**2 * [1.0, 1.0, 0.0]
+        noise = g.noise(VELOCITY, c, derivative=True), g.noise(FORCE, c) + tilt
+        return fitted(y, x, g.there(c, VELOCITY, FORCE, ATTITUDE), noise, KINDS["speed"])
+
+    def _load(self, g: Grid, _: str) -> Fit | None:
+        c, each = g.cells, g.mean(JOINTS[0])
+        whole = each.reshape(len(each), -1, 3).sum(axis=1)
+        if {PUSH[0], ATTITUDE} <= {*g.log}:
+            whole = whole + rotated(conjugate(g.attitudes[:-1]), g.mean(PUSH[0]))
+        y = smoothed(whole, c)
+        x = smoothed(g.mean(FORCE), c) * self.table.payload.mass
+        noise = g.noise(JOINTS[0], c), g.noise(FORCE, c) * self.table.payload.mass**2
+        return fitted(y, x, g.there(c, JOINTS[0], FORCE), noise, KINDS["load"])
+
+    def _lever(self, g: Grid, _: str) -> Fit | None:
+        c = g.cells
+        F, M = (g.mean(name).reshape(g.count, -1, 3) for name in JOINTS)
+        y = smoothed((M + np.cross(self.joints, F)).sum(axis=1), c)
+        J = self.table.payload.moments
+        x = smoothed(np.gradient(g.mean(RATES), CELL, axis=0), c) * J
+        arm = np.sum(self.joints**2) - np.sum(self.joints**2, axis=0)
+        noise = g.noise(JOINTS[1], c) + g.noise(JOINTS[0], c) / len(self.joints) * arm, g.noise(RATES, c, derivative=True) * np.square(J)
+        return fitted(y, x, g.there(c, RATES, *JOINTS), noise, KINDS["lever"])
+
+    def _wrench(self, g: Grid, commands: str) -> Array:
+        u = g.mean(commands)
+        thrusts = u if commands == COMMANDS else u * u * self.thrust_constants
+        return np.asarray(thrusts @ self.vehicle.effect.T)
+
+    def _flies(self, g: Grid, lift: Array) -> Truths:
+        """Where the thrusts carry the vehicle, and it is clear of the floor."""
+        flies = smoothed(lift[:, None], g.cells)[:, 0] > 0.5 * self.vehicle.mass * GRAVITY
+        if POSITION in g.log:
+            z = g.mean(POSITION)[:, 2]
+            radius = max(q.rotor_radius for q in self.table.quadrotors)
+            flies &= (z > z.min() + 4.0 * radius) | (z.max() - z.min() < radius)
+        return np.asarray(flies)
+
+    def _lift(self, g: Grid, commands: str) -> Fit | None:
+        c, wrench = g.cells, self._wrench(g, commands)
+        none = np.zeros((g.count, 2))
+        y = np.hstack([none, smoothed(g.mean(FORCE), c)[:, 2:]])
+        x = np.hstack([none, smoothed(wrench[:, :1] / self.vehicle.mass, c)])
+        noise = g.noise(FORCE, c), np.zeros(3)
+        return fitted(y, x, g.there(c, FORCE, commands) & self._flies(g, wrench[:, 0]), noise, KINDS["lift"])
+
+    def _twist(self, g: Grid, commands: str) -> Fit | None:
+        c, wrench = g.cells, self._wrench(g, commands)
+        y = smoothed(np.gradient(g.mean(RATES), CELL, axis=0), c)
+        x = smoothed(wrench[:, 1:] @ np.linalg.inv(self.vehicle.inertia).T, c)
+        noise = g.noise(RATES, c, derivative=True), np.zeros(3)
+        return fitted(y, x, g.there(c, RATES, commands) & self._flies(g, wrench[:, 0]), noise, KINDS["twist"])
+
+    def constants(self, log: Log) -> dict[str, Array]:
+        """The means that gravity tells: of the accelerometer in world axes, of the joints' sum, of the lift."""
+        g, found = Grid(log, self._means), dict[str, Array]()
+        if g.count < FEWEST:
+            return found
+        if {FORCE, ATTITUDE} <= {*log}:
+            found["up"] = rotated(g.attitudes[:-1], g.mean(FORCE)).mean(axis=0) / GRAVITY
+        if {FORCE, JOINTS[0]} <= {*log}:
+            each = g.mean(JOINTS[0]).reshape(g.count, -1, 3)
+            found["load"] = each.mean(axis=0) / (self.table.payload.mass * GRAVITY)
+        commands = COMMANDS if COMMANDS in log else SPEED_COMMANDS
+        if {FORCE, commands} <= {*log}:
+            lift = self._wrench(g, commands)[:, 0]
+            flies = self._flies(g, lift)
+            found["lift"] = np.array([np.mean(lift[flies]) / self.vehicle.mass / max(float(np.mean(g.mean(FORCE)[flies, 2])), 1e-3)]) if flies.sum() > FEWEST else np.array([np.nan])
+        return found
