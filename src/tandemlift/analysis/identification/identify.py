@@ -22,9 +22,9 @@ from tandemlift.analysis.identification.judgement import (
     whiteness,
 )
 from tandemlift.analysis.identification.prediction import Predictor
-from tandemlift.analysis.identification.sensor_errors import sensor_priors
+from tandemlift.analysis.identification.sensor_errors import at_place, sensor_priors
 from tandemlift.analysis.identification.windows import FEWEST, LENGTH, FlightWindows, windows_of
-from tandemlift.analysis.logs.log import Log, log_of
+from tandemlift.analysis.logs.log import IMU, Log, log_of
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Array, Progress, flat
@@ -89,7 +89,8 @@ def identify(
     _check_starts(unknowns, mission.mission.name)
     parts = [_split(w, held_back) for w in cut]
     streams = frozenset(name for w in cut for name in w.samples)
-    priors = sensor_priors(mission.sensors, len(mission.vehicle.quadrotors), streams)
+    place = next((w.place for w in cut if w.place is not None), None)
+    priors = sensor_priors(mission.sensors, len(mission.vehicle.quadrotors), streams, place)
     search = VehicleSearch([Predictor(fitted, unknowns, mission) for fitted, _ in parts], unknowns, priors)
     with progress_or_own(f"{mission.mission.name}, identified", progress, "steps") as shown:
         equations, normal = search.run(shown)
@@ -183,7 +184,8 @@ def _values(unknowns: Unknowns, q: Array) -> dict[str, tuple[Array, str]]:
     for u in unknowns.unknowns:
         value = every[u.kind.field]
         table = np.array(flat(value) if hasattr(value, "_fields") else value, float).reshape(u.kind.axes or 1, -1)
-        found[u.key] = table[:, u.quadrotors[0] if u.quadrotors else 0], u.kind.unit
+        for i in u.quadrotors or (0,):
+            found[u.key.replace("*", str(i))] = table[:, i], u.kind.unit
     return found
 
 
@@ -217,8 +219,7 @@ def _results(
     changes = dict[str, list[float]]()
     for key, (values, _) in _values(unknowns, q).items():
         kept = np.maximum(values, 0.0) if "drag" in key or "delay" in key else values
-        for i in range(len(table.quadrotors)):
-            changes[key.replace("*", str(i))] = [float(f"{x:.7g}") for x in kept]
+        changes[key] = [float(f"{x:.7g}") for x in kept]
     return found, list(rows_of(_with_derivatives(whole, q), *matrices)), changes
 
 
@@ -260,6 +261,8 @@ def _details(
         "correlation": correlations.round(4).tolist(),
         "efficiency": float(np.median(covariance.efficiency)),
         "motion_point": e.point.tolist(),
+        "accelerometer_place": e.place.tolist(),
+        "streams": [one._asdict() for part in search.parts for one in part.windows.tests],
         "joint_turns": e.turns.tolist(),
         "biases": {name: e.biases[:, place].mean(axis=0).tolist() for name, place in search.priors.places.items()},
         "clocks": {name: float(e.biases[:, place].mean()) for name, place in search.priors.clocks.items()},
@@ -271,6 +274,8 @@ def _example(search: VehicleSearch) -> dict[str, Any]:
     part = search.parts[0]
     w, n = part.windows, search.unknowns.numbers(search.estimate.q)
     predicted = part.predictor.predicted(part.starts, n, part.predictor.squares(n, False)[0], search.estimate.point)
+    force, rates = (predicted[name] for name in IMU)
+    predicted[IMU[0]] = at_place(force, rates, search.estimate.place, w.step)
     last, shown = int(np.flatnonzero(part.used)[-1]), dict[str, Any]()
     for name in ("measured_specific_force", "measured_rates", "measured_joint_force", "measured_position"):
         s = w.samples.get(name)

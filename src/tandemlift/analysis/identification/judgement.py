@@ -126,7 +126,7 @@ def scale_is_known(unknowns: Unknowns, q: Array, information: Array) -> bool:
         information: of the data on it (P, P).
     """
     kinds = [u.kind for u in unknowns.unknowns]
-    along = np.array([float(u.positive and k.unit in SCALED) for u, k in zip(unknowns.unknowns, kinds, strict=True)])
+    along = np.array([float(u.positive and k.unit in SCALED and not u.weights) for u, k in zip(unknowns.unknowns, kinds, strict=True)])
     drag = np.array([u.start + x if ".drag." in u.key else 0.0 for u, x in zip(unknowns.unknowns, q, strict=True)])
     direction, sd = along + drag, float(np.min(unknowns.sd[along > 0.0], initial=1.0))
     return bool(direction @ information @ direction * sd**2 > 1.0 or sd < 0.01)
@@ -198,6 +198,9 @@ def remarks_on(
             f"Residuals are larger than the white noise of the samples, by the factor: {', '.join(beyond)}. Something "
             "of the vehicle is not in the mission: compare place, order and spin of its rotors."
         )
+    if search.priors.place_sd:
+        at = f"{np.round(search.estimate.place, 3).tolist()} m from the payload's origin"
+        said.append(f"The accelerometer is not where the log's contract says, but {at}: its place is estimated, too.")
     if search.left_out:
         said.append(
             f"{search.left_out} windows are left out, which no vehicle explains: as under a push, a contact or a fault."

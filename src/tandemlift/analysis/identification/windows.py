@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.analysis.logs import log as logs
-from tandemlift.analysis.logs.checks import check_log
+from tandemlift.analysis.logs.causes import Finding, check_streams
 from tandemlift.analysis.logs.clocks import GAP
 from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, PUSH, SPEED_COMMANDS, Log, Stream
 from tandemlift.core.errors import InputError
@@ -70,6 +70,8 @@ class FlightWindows:
         floor: the height z [m], in the log, of a floor with ground effect; None without.
         notes: what was found and changed, in sentences.
         stamp_offset: how far [s] stamps of commands and of readings may be off from each other.
+        tests: of the streams against each other.
+        place: of the accelerometer, from the payload's origin [m], if the tests found it elsewhere.
     """
 
     source: str
@@ -85,6 +87,8 @@ class FlightWindows:
     floor: float | None = None
     notes: tuple[str, ...] = ()
     stamp_offset: float = 0.0
+    tests: tuple[Finding, ...] = ()
+    place: Array | None = None
 
     def times(self) -> Array:
         """The time [s] at which each window begins."""
@@ -124,9 +128,9 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
         InputError: a stream is missing, has another number of rotors or joints, or no flight is left.
     """
     check_columns(log, mission.vehicle, mission.mission.name)
-    commands = _speeds(log, mission.vehicle)
     log.require(*IMU, MOTION[0], MOTION[2])
-    check_log(log)
+    streams = check_streams(log, mission.vehicle)
+    commands = _speeds(log, mission.vehicle)
     log, notes = _without_held(log)
     imu = log["measured_specific_force"].time
     interval = float(np.median(np.diff(imu))) if len(imu) > 1 else LONGEST_STEP
@@ -161,7 +165,8 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
             f"{usable.sum()} windows; {FEWEST} are needed"
         )
     lowest = float(log[MOTION[0]].values[:, 2].min())
-    return replace(cut.chosen(usable), floor=_floor(mission, rested, lowest), notes=notes, stamp_offset=offset)
+    known = {"stamp_offset": offset, "tests": streams.table, "place": streams.place}
+    return replace(cut.chosen(usable), floor=_floor(mission, rested, lowest), notes=notes, **known)
 
 
 def _without_held(log: Log) -> tuple[Log, tuple[str, ...]]:

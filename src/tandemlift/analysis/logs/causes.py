@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tandemlift.analysis.logs.checks import check_alive, check_log
 from tandemlift.analysis.logs.corrections import UNITS, UP, Correction, factor_of, in_words
 from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, SPEED_COMMANDS, Log, stream_channel
 from tandemlift.analysis.logs.stream_tests import KINDS, LAWS, Fit, Laws
@@ -27,6 +28,8 @@ SURE = 5.0  # standard deviations
 LEANS = 10.0  # deg that the mean specific force may be off the vertical
 NOTHING, ALIKE = 0.3, 0.6  # correlation below which two streams have nothing in common; from which a lag is told
 STILL_TOLD = 0.5  # standard deviation of a scale, up to which a law tells something
+AWAY = 0.15  # m from the payload's origin that an accelerometer may be, which the centre of mass may be off, too
+LIKELIER = 12.0  # units of log-likelihood
 WORST = 1.5  # part of a square that a law leaves, at most: more is no worse
 MOST_ORDERS = 24  # of quadrotors that are tried
 NEARLY = 0.15  # relative: a scale so near that of a unit is it
@@ -90,6 +93,9 @@ def _of_means(laws: Laws, log: Log) -> Iterator[Finding]:
         good = -0.5 < whole[2] < 2.5 and flat < 0.8
         found = f"{whole[2]:+.2f} of the payload's weight along z, {flat:.2f} across"
         yield Finding(JOINTS[0], "weight", found, "1, or 0 after a tare; 0 across", _verdict(good))
+    for way, better in laws.frames(log).items():
+        found = f"those of {'body' if way == 'body' else 'a second turn of body'} axes suit the position better: {better:+.0f}"
+        yield Finding(VELOCITY, f"frame of the velocity, if {way}", found, f"below {LIKELIER:g}", _verdict(better < LIKELIER))
     if "lift" in constants and np.isfinite(constants["lift"]).all():
         ratio = float(constants["lift"][0])
         yield Finding(commands, "hover", f"{ratio:.3g} of the weight", "0.5 to 2", _verdict(0.5 < ratio < 2.0))
@@ -129,6 +135,14 @@ def _of_law(name: str, streams: str, fit: Fit | None) -> Iterator[Finding]:
         yield Finding(streams, f"axes of {test}", f"{axis_and_angle(fit.turn)}", f"within {kind.turn:g}°", _verdict(good))
 
 
+def away(laws: Laws, log: Log) -> Array | None:
+    """Where the accelerometer is, from the payload's origin [m], if it is elsewhere; None if it may be there."""
+    found = laws.place(log)
+    if found is None or found[1].max() > AWAY:
+        return None
+    return found[0] if np.linalg.norm(found[0]) > AWAY + SURE * float(found[1].max()) else None
+
+
 def axis_and_angle(turn: Array) -> str:
     """A rotation vector [rad] in words."""
     angle = float(np.linalg.norm(turn))
@@ -139,29 +153,41 @@ def axis_and_angle(turn: Array) -> str:
     return f"turned by {math.degrees(angle):.0f}° about {np.round(axis, 2).tolist()}"
 
 
-def check_streams(log: Log, table: VehicleTable, *, tell: bool = True) -> tuple[Finding, ...]:
-    """The table of all tests of a log; a log that contradicts itself is refused with the likely cause.
+class Streams(NamedTuple):
+    """What the tests of a log found: their table, and where the accelerometer is if not at the payload's origin [m]."""
+
+    table: tuple[Finding, ...]
+    place: Array | None
+
+
+def check_streams(log: Log, table: VehicleTable) -> Streams:
+    """Test the streams of a log against each other; one that contradicts itself is refused with the likely cause.
 
     Args:
         log: of about such a vehicle.
         table: of the vehicle.
-        tell: whether the cause is looked for.
 
     Raises:
         InputError: tests contradict; the message names what, and what to write into the map.
     """
+    check_alive(log)
     laws = Laws(table)
-    table_of = tuple(findings_of(laws, log))
-    wrong = [one for one in table_of if one.verdict == "contradicts"]
+    found = tuple(findings_of(laws, log))
+    wrong = [one for one in found if one.verdict == "contradicts"]
     if not wrong:
-        return table_of
+        check_log(log)
+        place = away(laws, log)
+        if place is not None:
+            at = f"{np.round(place, 2).tolist()} m from the payload's origin"
+            found += (Finding(FORCE, "place of the accelerometer", at, f"within {AWAY:g} m", "estimated"),)
+        return Streams(found, place)
     first = wrong[0]
     said = f"{log.source}: stream {first.stream}: {first.test}: {first.found}; expected: {first.expected}"
-    found = causes_of(log, laws, wrong) if tell else []
-    if not found:
+    causes = causes_of(log, laws, wrong)
+    if not causes:
         others = "".join(f"; {one.test}: {one.found}" for one in wrong[1:3])
         raise InputError(f"{said}{others}. No single change of the map makes it agree")
-    cause = found[0]
+    cause = causes[0]
     raise InputError(f"{said}. It seems to be {cause.words}: {in_words(cause.corrections, log)}")
 
 

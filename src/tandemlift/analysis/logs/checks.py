@@ -75,9 +75,7 @@ def check_log(log: Log) -> None:
     Raises:
         InputError: the message names the stream, its value, and what is expected.
     """
-    for name in (*IMU, *JOINTS, *MOTION):
-        if name in log:
-            _check_alive(log, name)
+    check_alive(log)
     if FORCE in log:
         _check_gravity(log)
     if ATTITUDE in log:
@@ -90,6 +88,17 @@ def check_log(log: Log) -> None:
         _check_change(log, POSITION, log[VELOCITY], "velocity")
     if {FORCE, ATTITUDE, VELOCITY} <= {*log}:
         _check_change(log, VELOCITY, acceleration(log), "specific force in world axes less g")
+
+
+def check_alive(log: Log) -> None:
+    """Refuse a log whose channels are dead or saturated.
+
+    Raises:
+        InputError: the message names the stream and the column.
+    """
+    for name in (*IMU, *JOINTS, *MOTION):
+        if name in log:
+            _check_alive(log, name)
 
 
 def _wrong(log: Log, name: str, what: str) -> InputError:

@@ -82,8 +82,8 @@ class Kind(NamedTuple):
 
 KINDS = {
     "turn": Kind((0.8, 1.25), 4.0, 2.0 * SMOOTH, turn=5.0),
-    "path": Kind((0.8, 1.25), 20.0, 4.0 * SMOOTH, turn=15.0, lags=(-0.06, 0.06)),
-    "speed": Kind((0.6, 1.6), 4.0, 4.0 * SMOOTH, turn=15.0, lags=(-0.03, 0.03)),
+    "path": Kind((0.8, 1.25), 20.0, 4.0 * SMOOTH, turn=15.0),
+    "speed": Kind((0.6, 1.6), 4.0, 4.0 * SMOOTH, turn=15.0),
     "load": Kind((0.4, 2.5), SLOW, SMOOTH, pushed=True),
     "lever": Kind((0.4, 2.5), SLOW, SMOOTH, pushed=True),
     "lift": Kind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
@@ -310,12 +310,13 @@ def rotation_vector(R: Array) -> Array:
 
 
 def _lag_of(y: Array, x: Array) -> tuple[float, float]:
-    """(The lag [s] of y against x of the largest correlation, whatever the axes; that correlation)."""
+    """(The lag [s] of y against x at which x explains most of y, whatever the axes; the root of that part)."""
     reach = min(round(REACH / CELL), len(y) // 3)
     places, n = np.arange(-reach, reach + 1), len(y)
     cross = np.array([y[max(k, 0) : n + min(k, 0)].T @ x[max(-k, 0) : n - max(k, 0)] for k in places])
-    own = np.sum(y * y, axis=0)
-    alike = np.sum(cross**2 / np.maximum(np.sum(x * x, axis=0), 1e-300), axis=(1, 2)) / max(float(np.sum(own)), 1e-300)
+    gram = x.T @ x
+    explained = np.linalg.solve(gram + (1e-6 * np.trace(gram) + 1e-300) * np.eye(3), cross.swapaxes(1, 2))
+    alike = np.einsum("kij,kji->k", cross, explained) / max(float(np.sum(y * y)), 1e-300)
     best = int(np.argmax(alike))
     lag = float(places[best])
     if 0 < best < len(places) - 1:
@@ -375,6 +376,19 @@ class Laws:
         noise = g.noise(POSITION, c, derivative=True), g.noise(VELOCITY, c)
         return fitted(y, x, g.there(c, POSITION, VELOCITY), noise, KINDS["path"])
 
+    def frames(self, log: Log) -> dict[str, float]:
+        """By how many units of log-likelihood velocities in other axes suit the position better, by the true frame."""
+        g = Grid(log, self._means)
+        if not {*MOTION} <= {*log} or g.count < FEWEST:
+            return {}
+        c, q = 2 * g.cells, g.attitudes[:-1]
+        good, y, v = g.there(c, *MOTION), smoothed(g.change(POSITION), c), g.mean(VELOCITY)
+        ways = {"": v, "body": rotated(q, v), "world": rotated(conjugate(q), v)}
+        noise = float(np.sum(g.noise(POSITION, c, derivative=True)))
+        rests = {way: float(np.sum(np.mean((y - smoothed(x, c))[good] ** 2, axis=0))) for way, x in ways.items()}
+        own = 3.0 * good.sum() * CELL / (4.0 * SMOOTH)
+        return {way: 0.5 * own * math.log((rests[""] + noise) / (rest + noise)) for way, rest in rests.items() if way}
+
     def _speed(self, g: Grid, _: str) -> Fit | None:
         c = 4 * g.cells
         y, x = smoothed(g.change(VELOCITY), c), smoothed(rotated(g.attitudes[:-1], g.mean(FORCE)), c)
@@ -407,14 +421,16 @@ class Laws:
         thrusts = u if commands == COMMANDS else u * u * self.thrust_constants
         return np.asarray(thrusts @ self.vehicle.effect.T)
 
+    def _clear(self, g: Grid) -> Truths:
+        """Where the vehicle is clear of its lowest place, if it rose at all."""
+        if POSITION not in g.log:
+            return np.ones(g.count, bool)
+        z, radius = g.mean(POSITION)[:, 2], max(q.rotor_radius for q in self.table.quadrotors)
+        return np.asarray((z > z.min() + 4.0 * radius) | (z.max() - z.min() < 8.0 * radius))
+
     def _flies(self, g: Grid, lift: Array) -> Truths:
         """Where the thrusts carry the vehicle, and it is clear of the floor."""
-        flies = smoothed(lift[:, None], g.cells)[:, 0] > 0.5 * self.vehicle.mass * GRAVITY
-        if POSITION in g.log:
-            z = g.mean(POSITION)[:, 2]
-            radius = max(q.rotor_radius for q in self.table.quadrotors)
-            flies &= (z > z.min() + 4.0 * radius) | (z.max() - z.min() < radius)
-        return np.asarray(flies)
+        return self._clear(g) & (smoothed(lift[:, None], g.cells)[:, 0] > 0.5 * float(np.median(lift)))
 
     def _lift(self, g: Grid, commands: str) -> Fit | None:
         c, wrench = g.cells, self._wrench(g, commands)
@@ -431,6 +447,30 @@ class Laws:
         noise = g.noise(RATES, c, derivative=True), np.zeros(3)
         return fitted(y, x, g.there(c, RATES, commands) & self._flies(g, wrench[:, 0]), noise, KINDS["twist"])
 
+    def place(self, log: Log) -> tuple[Array, Array] | None:
+        """(Where the accelerometer is, from the payload's origin [m], body axes; standard deviations), by the motion.
+
+        Its readings less those at the centre of mass, R' (change of the velocity + g), are α × r + ω × (ω × r).
+        """
+        g = Grid(log, self._means)
+        if not {FORCE, RATES, VELOCITY, ATTITUDE} <= {*log} or g.count < FEWEST:
+            return None
+        c, back = 2 * g.cells, conjugate(g.attitudes[:-1])
+        good = g.there(c, FORCE, RATES, VELOCITY, ATTITUDE)
+        if good.sum() < FEWEST:
+            return None
+        seen = smoothed(g.mean(FORCE) - rotated(back, g.change(VELOCITY) + [0.0, 0.0, GRAVITY]), c)
+        w = g.mean(RATES)
+        turning = np.gradient(w, CELL, axis=0)
+        columns = [smoothed(np.cross(turning, e) + np.cross(w, np.cross(w, e)), c) for e in np.eye(3)]
+        y = quick(seen, 4.0)[good].ravel()
+        X = np.stack([quick(column, 4.0)[good].ravel() for column in columns], axis=1)
+        gram = X.T @ X + 1e-12 * np.eye(3)
+        r = np.linalg.solve(gram, X.T @ y)
+        own = max(good.sum() * CELL / (4.0 * SMOOTH), 10.0)
+        sd = np.sqrt(np.mean((y - X @ r) ** 2) * np.diag(np.linalg.inv(gram)) * good.sum() / own)
+        return r + self.vehicle.center_of_mass, sd
+
     def constants(self, log: Log) -> dict[str, Array]:
         """The means that gravity tells: of the accelerometer in world axes, of the joints' sum, of the lift."""
         g, found = Grid(log, self._means), dict[str, Array]()
@@ -445,5 +485,6 @@ class Laws:
         if {FORCE, commands} <= {*log}:
             lift = self._wrench(g, commands)[:, 0]
             flies = self._flies(g, lift)
-            found["lift"] = np.array([np.mean(lift[flies]) / self.vehicle.mass / max(float(np.mean(g.mean(FORCE)[flies, 2])), 1e-3)]) if flies.sum() > FEWEST else np.array([np.nan])
+            felt = self.vehicle.mass * GRAVITY
+            found["lift"] = np.array([np.mean(lift[flies]) / felt if flies.sum() > FEWEST else np.nan])
         return found
