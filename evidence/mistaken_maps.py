@@ -29,7 +29,7 @@ from other_body import drawn, flown, log_of
 
 import tandemlift as tl
 from tandemlift.analysis.logs.causes import check_streams
-from tandemlift.analysis.logs.corrections import ATTITUDE, Correction, factor_of, turned_by
+from tandemlift.analysis.logs.corrections import ATTITUDE, factor_of, turned_by
 from tandemlift.analysis.logs.log import JOINTS, MOTION, Log, Stream, conjugate, quaternion_product, rotated
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.missions import Mission

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -92,13 +93,19 @@ def identify(
     place = next((w.place for w in cut if w.place is not None), None)
     priors = sensor_priors(mission.sensors, len(mission.vehicle.quadrotors), streams, place)
     search = VehicleSearch([Predictor(fitted, unknowns, mission) for fitted, _ in parts], unknowns, priors)
-    with progress_or_own(f"{mission.mission.name}, identified", progress, "steps") as shown:
-        equations, normal = search.run(shown)
-    _check_structure(search, cut[0].source)
-    found = _judged(search, equations, normal, [last for _, last in parts if last is not None], mission)
-    vehicle = Unknowns(driven_numbers(found.mission.vehicle, found.mission.actuators.delay), ())
-    found.details.update(predicted=_predicted(other, vehicle, search, None), seconds=time.perf_counter() - began)
-    return found
+    try:
+        with progress_or_own(f"{mission.mission.name}, identified", progress, "steps") as shown:
+            equations, normal = search.run(shown)
+        _check_structure(search, cut[0].source)
+        found = _judged(search, equations, normal, [last for _, last in parts if last is not None], mission)
+        vehicle = Unknowns(driven_numbers(found.mission.vehicle, found.mission.actuators.delay), ())
+        predicted = _predicted(other, vehicle, search, None)
+    except (np.linalg.LinAlgError, ArithmeticError):
+        raise _no_such_vehicle(search, cut[0].source, "the search leaves all numbers that a vehicle can have") from None
+    found.details.update(predicted=predicted, seconds=time.perf_counter() - began)
+    if not all(np.isfinite([row.value, row.low, row.high]).all() for row in (*found.rows, *found.whole)):
+        raise _no_such_vehicle(search, cut[0].source, "some numbers of the vehicle are not finite")
+    return replace(found, details=_finite(found.details))
 
 
 def _keys(mission: Mission, parameters: Sequence[str] | None) -> list[str]:
@@ -160,11 +167,23 @@ def _check_structure(search: VehicleSearch, source: str) -> None:
     """Refuse a mission with which no numbers explain how the vehicle turns."""
     times = search.estimate.noise["measured_rates"] / search.white["measured_rates"]
     if search.lost or times > IMPOSSIBLE:
-        name = search.parts[0].predictor.mission.mission.name
-        raise InputError(
-            f"{source}: measured_rates differ from those of any vehicle of mission {name} by more than {IMPOSSIBLE:g} "
-            "times their noise: it cannot be this vehicle; compare place, order and spin of rotors with the commands"
-        )
+        why = f"measured_rates differ from those of any such vehicle by more than {IMPOSSIBLE:g} times their noise"
+        raise _no_such_vehicle(search, source, why)
+
+
+def _no_such_vehicle(search: VehicleSearch, source: str, why: str) -> InputError:
+    name = search.parts[0].predictor.mission.mission.name
+    said = "it cannot be this vehicle; compare place, order and spin of rotors with the commands"
+    return InputError(f"{source}: mission {name}: {why}: {said}")
+
+
+def _finite(value: Any) -> Any:
+    """Plain values in which what is no finite number is None, as JSON has no such numbers."""
+    if isinstance(value, dict):
+        return {key: _finite(own) for key, own in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(own) for own in value]
+    return None if isinstance(value, float) and not np.isfinite(value) else value
 
 
 def _split(w: FlightWindows, held_back: float) -> tuple[FlightWindows, FlightWindows | None]:

@@ -201,6 +201,11 @@ def remarks_on(
     if search.priors.place_sd:
         at = f"{np.round(search.estimate.place, 3).tolist()} m from the payload's origin"
         said.append(f"The accelerometer is not where the log's contract says, but {at}: its place is estimated, too.")
+    if not search.settled:
+        said.append(
+            f"The search did not settle in {search.steps} steps: numbers may be off by more than their intervals. Some "
+            "of the flight fits no vehicle of this mission; leave it out by log.between, or fly again."
+        )
     if search.left_out:
         said.append(
             f"{search.left_out} windows are left out, which no vehicle explains: as under a push, a contact or a fault."

@@ -32,6 +32,7 @@ LONGEST_DELAY = 0.1  # s that a command may be late
 SETTLING = 0.3  # s from the first command until the rotors' speeds are known
 SPIKE = 15.0  # times the usual distance of a sample from the middle of its neighbours
 HELD = 0.75  # of the samples of a stream: if fewer are new, a table holds each of them for several rows
+STRAIGHT = 1e-3  # of the change between its neighbours: a sample so near their straight line was drawn there
 BEYOND = 0.01  # of the commanded speeds, that may be above the largest
 CLEAR = 6.0  # radii of a rotor above where it stood: no contact, and a ground effect that its theory gives
 FEWEST = 8  # windows
@@ -130,8 +131,8 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
     check_columns(log, mission.vehicle, mission.mission.name)
     log.require(*IMU, MOTION[0], MOTION[2])
     streams = check_streams(log, mission.vehicle)
-    commands = _speeds(log, mission.vehicle)
     log, notes = _without_held(log)
+    commands = _speeds(log, mission.vehicle)
     imu = log["measured_specific_force"].time
     interval = float(np.median(np.diff(imu))) if len(imu) > 1 else LONGEST_STEP
     step = interval / np.ceil(interval / LONGEST_STEP - 1e-9)
@@ -170,17 +171,41 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
 
 
 def _without_held(log: Log) -> tuple[Log, tuple[str, ...]]:
-    """(A log without the samples that repeat the one before in a table that holds them, what was left out)."""
-    streams, held = dict(log), list[str]()
-    for name in (*IMU, *MOTION, *JOINTS):
-        if name in log:
-            time, values = log[name]
-            new = np.insert(np.any(np.diff(values, axis=0) != 0.0, axis=1), 0, True)
-            if new.mean() < HELD:
-                streams[name] = Stream(time[new], values[new])
-                held.append(f"{name} ({1.0 - new.mean():.0%})")
-    said = f"Samples of {', '.join(held)} repeat the one before and are left out: leave such cells of a table empty."
-    return replace(log, streams=streams), (f"{log.source}: {said}",) * bool(held)
+    """(A log without the samples that a table has made up between those that were taken, what was left out).
+
+    A table of one clock repeats the sample before, or draws straight lines, where a stream has none.
+    """
+    streams, notes = dict(log), list[str]()
+    for words, names, taken in (
+        ("repeat the one before", (*IMU, *MOTION, *JOINTS), _new),
+        ("lie on straight lines between others", (*IMU, *MOTION, *JOINTS, COMMANDS, SPEED_COMMANDS), _bends),
+    ):
+        made_up = list[str]()
+        for name in (n for n in names if n in streams):
+            time, values = streams[name]
+            own = taken(time, values)
+            if own.mean() < HELD:
+                streams[name] = Stream(time[own], values[own])
+                made_up.append(f"{name} ({1.0 - own.mean():.0%})")
+        said = f"Samples of {', '.join(made_up)} {words} and are left out: leave such cells of a table empty."
+        notes += [f"{log.source}: {said}"] * bool(made_up)
+    return replace(log, streams=streams), tuple(notes)
+
+
+def _new(_: Array, values: Array) -> Truths:
+    """Which samples differ from the one before."""
+    return np.insert(np.any(np.diff(values, axis=0) != 0.0, axis=1), 0, True)
+
+
+def _bends(time: Array, values: Array) -> Truths:
+    """Which samples are not on the straight line between their neighbours, and not equal to both."""
+    if len(time) < 3:
+        return np.ones(len(time), bool)
+    part = ((time[1:-1] - time[:-2]) / (time[2:] - time[:-2]))[:, None]
+    off = np.abs(values[1:-1] - values[:-2] - part * (values[2:] - values[:-2]))
+    step = np.abs(values[2:] - values[:-2])
+    straight = np.all(off <= STRAIGHT * step, axis=1) & np.any(step > 0.0, axis=1)
+    return np.concatenate([[True], ~straight, [True]])
 
 
 def _ends(log: Log, commands: Stream) -> dict[str, float]:

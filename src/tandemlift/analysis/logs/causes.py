@@ -15,9 +15,9 @@ from typing import NamedTuple
 import numpy as np
 
 from tandemlift.analysis.logs.checks import check_alive, check_log
-from tandemlift.analysis.logs.corrections import UNITS, UP, Correction, factor_of, in_words
+from tandemlift.analysis.logs.corrections import UNITS, Correction, corrected, factor_of, in_words
 from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, SPEED_COMMANDS, Log, stream_channel
-from tandemlift.analysis.logs.stream_tests import KINDS, LAWS, Fit, Laws
+from tandemlift.analysis.logs.stream_tests import KINDS, LAWS, OF_EACH, Fit, Laws, thinned
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
@@ -41,6 +41,9 @@ MEANINGS = {
     "lever": "the moment of the joints about the payload against its inertia times the angular acceleration",
     "lift": "the accelerometer against the commanded thrusts over the mass",
     "twist": "the angular acceleration against that of the commanded thrusts",
+    "side": "the joint's force across against the quadrotor's mass times its acceleration",
+    "thrust": "the joint's force and the quadrotor's mass times its acceleration against its commanded thrusts",
+    "torque": "the joint's torque and the quadrotor's inertia times its turn against the moments of its thrusts",
 }
 
 
@@ -63,7 +66,7 @@ class Cause(NamedTuple):
 
 def findings_of(laws: Laws, log: Log, first: Sequence[str] = ()) -> Iterator[Finding]:
     """The table of all tests of a log, those of some laws first."""
-    for names in (first, [name for name in LAWS if name not in first]):
+    for names in (first, [name for name in laws.names if name not in first]):
         for name, fit in laws.fits(log, names):
             yield from _of_law(name, ", ".join(_streams(log, name)), fit)
         if names is first:
@@ -73,7 +76,7 @@ def findings_of(laws: Laws, log: Log, first: Sequence[str] = ()) -> Iterator[Fin
 def _streams(log: Log, law: str) -> list[str]:
     """The streams of a law in a log."""
     commands = COMMANDS if COMMANDS in log else SPEED_COMMANDS
-    return [commands if stream == COMMANDS else stream for stream in LAWS[law]]
+    return [commands if stream == COMMANDS else stream for stream in LAWS[law.split()[0]]]
 
 
 def _of_means(laws: Laws, log: Log) -> Iterator[Finding]:
@@ -106,10 +109,11 @@ def _verdict(good: bool) -> str:
 
 
 def _of_law(name: str, streams: str, fit: Fit | None) -> Iterator[Finding]:
-    kind, test = KINDS[name], MEANINGS[name]
+    law, *number = name.split()
+    kind, test = KINDS[law], f"{MEANINGS[law]}{f', quadrotor {number[0]}' if number else ''}"
     low, high = kind.scales
     if fit is None or not fit.told.any():
-        exact = name in ("turn", "path")
+        exact = law in ("turn", "path")
         if fit is not None and exact and np.any(fit.moves & (fit.left > 0.7)):
             yield Finding(streams, test, "nothing in common", "equal", "contradicts")
         else:
@@ -121,7 +125,7 @@ def _of_law(name: str, streams: str, fit: Fit | None) -> Iterator[Finding]:
         if fit.told[i]
         and not (fit.scale[i] + SURE * fit.scale_sd[i] > low and fit.scale[i] - SURE * fit.scale_sd[i] < high)
     ]
-    apart = [i for i in range(3) if name in ("turn", "path") and fit.moves[i] and fit.left[i] > 0.8]
+    apart = [i for i in range(3) if law in ("turn", "path") and fit.moves[i] and fit.left[i] > 0.8]
     shown = ", ".join(f"{'xyz'[i]} {fit.scale[i]:.2f}" for i in range(3) if fit.told[i] or i in apart)
     yield Finding(streams, test, f"scale {shown}", f"{low:g} to {high:g}", _verdict(not off and not apart))
     least, most = kind.lags
@@ -171,12 +175,14 @@ def check_streams(log: Log, table: VehicleTable) -> Streams:
         InputError: tests contradict; the message names what, and what to write into the map.
     """
     check_alive(log)
-    laws = Laws(table)
+    _check_spans(log)
+    laws, whole, log = Laws(table), log, thinned(log)
+    place = away(laws, log)
+    laws.at = laws.at if place is None else place
     found = tuple(findings_of(laws, log))
     wrong = [one for one in found if one.verdict == "contradicts"]
     if not wrong:
-        check_log(log)
-        place = away(laws, log)
+        check_log(whole)
         if place is not None:
             at = f"{np.round(place, 2).tolist()} m from the payload's origin"
             found += (Finding(FORCE, "place of the accelerometer", at, f"within {AWAY:g} m", "estimated"),)
@@ -191,16 +197,38 @@ def check_streams(log: Log, table: VehicleTable) -> Streams:
     raise InputError(f"{said}. It seems to be {cause.words}: {in_words(cause.corrections, log)}")
 
 
+def _check_spans(log: Log) -> None:
+    """Refuse a stream whose stamps last a thousand times as long as those of others, or that lies apart from them."""
+    spans = {name: float(stream.time[-1] - stream.time[0]) for name, stream in log.items() if len(stream.time) > 1}
+    usual = float(np.median([*spans.values()]))
+    for name, span in spans.items():
+        given = log.ways.get(name, {}).get("time_unit", "s")
+        for unit in ("s", "ms", "us", "ns"):
+            ratio = factor_of(unit) / factor_of(given) * span / max(usual, 1e-12)
+            if unit != given and 0.5 < ratio < 2.0 and not 0.05 < span / usual < 20.0:
+                raise InputError(
+                    f"{log.source}: stream {name}: its stamps last {span:.4g} s, those of others {usual:.4g} s. It seems "
+                    f'to be stamped in {unit}: [{name}] time_unit = "{unit}"'
+                )
+    middle = {name: float(np.mean(log[name].time[[0, -1]])) for name in spans}
+    center = float(np.median([*middle.values()]))
+    name = max(middle, key=lambda name: abs(middle[name] - center))
+    if log.duration < 0.3 * min(usual, *spans.values()):
+        time = log[name].time
+        raise InputError(
+            f"{log.source}: stream {name}: its stamps are from {time[0]:.6g} to {time[-1]:.6g} s, those of others about "
+            f"{center:.6g} s: they seem to be of another clock: give delay = {middle[name] - center:.4g} or so, and align"
+        )
+
+
 def causes_of(log: Log, laws: Laws, wrong: Sequence[Finding]) -> list[Cause]:
     """The changes with which no test contradicts, the best first."""
     concerned = {name for one in wrong for name in one.stream.split(", ")}
-    first = [name for name in LAWS if any(MEANINGS[name] in one.test for one in wrong)]
+    first = [name for name in laws.names if any(MEANINGS[name.split()[0]] in one.test for one in wrong)]
     before = {name for name, fit in laws.fits(log) if fit is not None and fit.told.any()}
     found = list[tuple[float, int, Cause]]()
     for number, cause in enumerate(candidates(log, laws, concerned)):
-        other = log
-        for correction in cause.corrections:
-            other = correction.applied(other)
+        other = corrected(log, cause.corrections)
         if any(one.verdict == "contradicts" for one in findings_of(laws, other, first)):
             continue
         fits = dict(laws.fits(other))
@@ -216,11 +244,17 @@ def _unexplained(fits: Mapping[str, Fit | None]) -> float:
 
 SIGNS = tuple(itertools.product((1.0, -1.0), repeat=3))
 ORDERS = tuple(itertools.permutations(range(3)))
+SAME = ORDERS[0], SIGNS[0]
 ROTATIONS = tuple(
     (order, signs)
     for order in ORDERS
     for signs in SIGNS
-    if np.linalg.det(np.diag(signs) @ np.eye(3)[list(order)]) > 0.0 and (order, signs) != (ORDERS[0], SIGNS[0])
+    if np.linalg.det(np.diag(signs) @ np.eye(3)[list(order)]) > 0.0 and (order, signs) != SAME
+)
+MISTAKES = (  # signs, columns in another order, both for other axes
+    *((ORDERS[0], signs) for signs in SIGNS[1:]),
+    *((order, SIGNS[0]) for order in ORDERS[1:]),
+    *((order, signs) for order, signs in ROTATIONS if order != ORDERS[0] and signs != SIGNS[0]),
 )
 
 
@@ -235,29 +269,30 @@ def _axes(order: Sequence[int], signs: Sequence[float]) -> str:
     return swapped + (f", {' and '.join(negative)} negative" if negative else "")
 
 
-def _mapped(name: str, width: int, order: Sequence[int], signs: Sequence[float], only: Iterable[int] | None = None) -> Correction:
+def _mapped(
+    name: str, width: int, order: Sequence[int], signs: Sequence[float], only: Iterable[int] | None = None
+) -> Correction:
     """Axes of a stream in another order and with other signs; of joints, of some quadrotors."""
     columns, factors = list(range(width)), [1.0] * width
     for i in range(width // 3) if only is None else only:
         for axis in range(3):
             columns[3 * i + axis], factors[3 * i + axis] = 3 * i + order[axis], signs[axis]
-    return Correction(name, tuple(columns), tuple(factors))
+    moved = tuple(columns) if columns != [*range(width)] else ()
+    return Correction(name, moved, tuple(factors) if min(factors) < 0.0 else ())
 
 
 def candidates(log: Log, laws: Laws, concerned: Iterable[str]) -> Iterator[Cause]:
     """Single mistakes of a map that may be in some streams of a log."""
     concerned = [name for name in log if name in {*concerned}]
-    yield from _units(log, laws, concerned)
+    yield from _units(log, concerned)
     yield from _late(log, laws, concerned)
     for name in (RATES, FORCE, POSITION, VELOCITY):
         if name in concerned:
-            for order in ORDERS:
-                for signs in SIGNS:
-                    if (order, signs) != (ORDERS[0], SIGNS[0]):
-                        yield Cause(f"{_axes(order, signs)}", (_mapped(name, 3, order, signs),))
+            for order, signs in MISTAKES:
+                yield Cause(_axes(order, signs), (_mapped(name, 3, order, signs),))
     if VELOCITY in concerned and ATTITUDE in log:
-        yield Cause("along body axes", (Correction(VELOCITY, frame="body"),))
-        yield Cause("along world axes already", (Correction(VELOCITY, frame="world"),))
+        given = log.ways.get(VELOCITY, {}).get("frame", "")
+        yield Cause(f"along {'world' if given else 'body'} axes", (Correction(VELOCITY, frame="world" if given else "body"),))
     if {*IMU} & {*concerned}:
         for order, signs in ROTATIONS:
             yield Cause(f"of an IMU {_axes(order, signs)}", tuple(_mapped(name, 3, order, signs) for name in IMU))
@@ -270,21 +305,19 @@ def candidates(log: Log, laws: Laws, concerned: Iterable[str]) -> Iterator[Cause
             yield from _commands(name, log[name].values.shape[1])
 
 
-def _units(log: Log, laws: Laws, concerned: Sequence[str]) -> Iterator[Cause]:
-    """Other units of a stream, and powers of commands."""
+def _units(log: Log, concerned: Sequence[str]) -> Iterator[Cause]:
+    """Other units of a stream."""
     for name in concerned:
         if name == ATTITUDE:
             continue
-        own = stream_channel(name).unit
-        now = factor_of(log.ways.get(name, {}).get("unit", "1"))
-        units = [("1", 1.0), *((unit, factor) for unit, (other, factor) in UNITS.items() if other == own)]
-        for unit, factor in units:
-            if not math.isclose(factor, now, rel_tol=1e-6):
+        own, way = stream_channel(name).unit, log.ways.get(name, {})
+        given = way.get("unit", "1")
+        for unit in ("1", *(unit for unit, (other, _) in UNITS.items() if other == own)):
+            if unit not in (given, own):
                 words = f"in {own} already" if unit == "1" else f"in {unit}"
-                yield Cause(words, (Correction(name, factor=(factor / now,)),))
-        if now == 1.0:
-            for unit, factor in units[1:]:
-                yield Cause(f"in {own} already, and scaled as {unit}", (Correction(name, factor=(1.0 / factor,)),))
+                yield Cause(words, (Correction(name, unit=unit),))
+        if np.any(np.abs(way.get("scale", 1.0)) != 1.0):
+            yield Cause(f"in {own if given == '1' else given} already", (Correction(name, plain=True),))
 
 
 def _late(log: Log, laws: Laws, concerned: Sequence[str]) -> Iterator[Cause]:
@@ -296,8 +329,8 @@ def _late(log: Log, laws: Laws, concerned: Sequence[str]) -> Iterator[Cause]:
     for group in groups:
         lags = set[float]()
         for name, fit in fits.items():
-            streams = LAWS[name]
-            if fit is None:
+            streams = LAWS[name.split()[0]]
+            if fit is None or name.split()[0] in OF_EACH:
                 continue
             if {*streams[:1]} & {*group} or (name == "lever" and {*JOINTS} & {*group}):
                 lags.add(fit.lag)
@@ -313,48 +346,59 @@ def _attitudes(log: Log, laws: Laws) -> Iterator[Cause]:
     """Other quaternions, and other axes of the world and of what is tracked."""
     there = [name for name in MOTION if name in log]
     if ATTITUDE in log:
-        for order in ((0, 1, 2, 3), (3, 0, 1, 2), (1, 2, 3, 0)):
-            turned = "x, y, z, w: give the columns in the order w, x, y, z" if order != (0, 1, 2, 3) else ""
-            for axes in ORDERS:
-                for signs in SIGNS:
-                    whole, factors = [order[0], *(order[1 + i] for i in axes)], (1.0, *signs)
-                    if whole == [0, 1, 2, 3] and signs == SIGNS[0]:
-                        continue
-                    if signs == (-1.0, -1.0, -1.0) and axes == ORDERS[0]:
-                        words = " from world to body"
-                    elif signs == (1.0, -1.0, -1.0) and axes == ORDERS[0]:
-                        words = " of front, right, down in north, east, down"
-                    else:
-                        words = f" {_axes(axes, signs)}" if axes != ORDERS[0] or signs != SIGNS[0] else ""
-                    yield Cause(" and".join(filter(None, (turned, words))).strip(), (Correction(ATTITUDE, tuple(whole), factors),))
-        for axis in range(3):
-            for angle in (90.0, -90.0, 180.0):
-                turn = tuple(angle * (i == axis) for i in range(3))
-                yield Cause(f"of axes that are turned by {angle:.0f}° about {'xyz'[axis]}", (_body_turn(turn),))
+        for order, words in (
+            ((0, 1, 2, 3), ""),
+            ((3, 0, 1, 2), "x, y, z, w: give the columns in the order w, x, y, z"),
+            ((1, 2, 3, 0), "w, x, y, z already, and not x, y, z, w"),
+        ):
+            for axes, signs in (SAME, *MISTAKES):
+                if (axes, signs) == SAME and not words:
+                    continue
+                moved = (order[0], *(order[1 + i] for i in axes))
+                named = {
+                    (ORDERS[0], SIGNS[-1]): "from world to body",
+                    (ORDERS[0], (1.0, -1.0, -1.0)): "of front, right, down in north, east, down",
+                    SAME: "",
+                }.get((axes, signs), _axes(axes, signs))
+                one = Correction(ATTITUDE, moved if moved != (0, 1, 2, 3) else (), () if min(signs) > 0.0 else (1.0, *signs))
+                yield Cause(" and ".join(filter(None, (words, named))), (one,))
+        for axis, angle in itertools.product(range(3), (90.0, -90.0, 180.0)):
+            turn = tuple(angle * (i == axis) for i in range(3))
+            words = f"of axes that are turned by {angle:.0f}° about {'xyz'[axis]}"
+            yield Cause(words, (Correction(ATTITUDE, turn=turn),))
+        if any(log.ways.get(ATTITUDE, {}).get("turn", ())):
+            back = tuple(-x for x in log.ways[ATTITUDE]["turn"])
+            yield Cause("of the body's own axes", (Correction(ATTITUDE, turn=back),))
         fit = dict(laws.fits(log)).get("turn")
         if fit is not None and fit.alike > ALIKE:
             turn = tuple(np.degrees(-fit.turn).tolist())
-            yield Cause(f"of axes that are {axis_and_angle(-fit.turn)} against the gyroscope's", (_body_turn(turn),))
-            yield Cause(f"a gyroscope of axes that are {axis_and_angle(fit.turn)} against the attitude's", (Correction(RATES, turn=tuple(np.degrees(fit.turn).tolist())),))
-    for group in ([ATTITUDE], there, [name for name in there if name != ATTITUDE]):
-        if group and all(name in log for name in group):
-            for up in UP:
-                yield Cause(f"of a world with {up} up", tuple(Correction(name, up=up) for name in group))
-            for flip, order, factors in (("x", (1, 0, 3, 2), (-1.0, 1.0, -1.0, 1.0)), ("y", (2, 3, 0, 1), (-1.0, 1.0, 1.0, -1.0)), ("z", (3, 2, 1, 0), (-1.0, -1.0, 1.0, 1.0))):
-                signs = tuple(1.0 if a == flip else -1.0 for a in "xyz")
-                words = "of a world with z down" if flip == "x" else f"of a world turned by 180° about {flip}"
-                yield Cause(words, tuple(
-                    Correction(name, order, factors) if name == ATTITUDE else _mapped(name, 3, ORDERS[0], signs) for name in group
-                ))
+            words = f"of axes that are {axis_and_angle(-fit.turn)} against the gyroscope's"
+            yield Cause(words, (Correction(ATTITUDE, turn=turn),))
+            words = f"a gyroscope's of axes that are {axis_and_angle(fit.turn)} against the attitude's"
+            yield Cause(words, (Correction(RATES, turn=tuple(np.degrees(fit.turn).tolist())),))
+    in_world = [name for name in there if not log.ways.get(name, {}).get("frame")]
+    for group in ([ATTITUDE], in_world, [name for name in in_world if name != ATTITUDE]):
+        if not group or not all(name in log for name in group):
+            continue
+        ups = {log.ways.get(name, {}).get("up", "z") for name in group}
+        for up in {"y", "z"} - (ups if len(ups) == 1 else set()):
+            yield Cause(f"of a world with {up} up", tuple(Correction(name, up=up) for name in group))
+        for flip, (order, factors) in HALF_TURNS.items():
+            signs = tuple(1.0 if a == flip else -1.0 for a in "xyz")
+            words = "of a world with z down" if flip == "x" else f"of a world turned by 180° about {flip}"
+            yield Cause(
+                words,
+                tuple(
+                    Correction(name, order, factors) if name == ATTITUDE else Correction(name, (), signs) for name in group
+                ),
+            )
 
 
-def _body_turn(turn: Sequence[float]) -> Correction:
-    """The correction of an attitude whose axes are turned by a rotation vector [deg]; half turns are signs."""
-    for axis, (order, factors) in enumerate((((1, 0, 3, 2), (-1.0, 1.0, 1.0, -1.0)), ((2, 3, 0, 1), (-1.0, -1.0, 1.0, 1.0)), ((3, 2, 1, 0), (-1.0, 1.0, -1.0, 1.0)))):
-        if np.allclose(np.abs(turn), 180.0 * np.eye(3)[axis], atol=4.0):
-            return Correction(ATTITUDE, order, factors)
-    x, y, z = turn
-    return Correction(ATTITUDE, turn=(x, y, z))
+HALF_TURNS = {  # of the world: columns of the quaternion, and their signs
+    "x": ((1, 0, 3, 2), (-1.0, 1.0, -1.0, 1.0)),
+    "y": ((2, 3, 0, 1), (-1.0, 1.0, 1.0, -1.0)),
+    "z": ((3, 2, 1, 0), (-1.0, -1.0, 1.0, 1.0)),
+}
 
 
 def _joints(log: Log) -> Iterator[Cause]:
@@ -363,21 +407,17 @@ def _joints(log: Log) -> Iterator[Cause]:
     count = log[there[0]].values.shape[1] // 3
     groups = [[name] for name in there] + ([there] if len(there) > 1 else [])
     for group in groups:
-        yield Cause("of the other sign", tuple(Correction(name, factor=(-1.0,)) for name in group))
         for order in itertools.islice(itertools.permutations(range(count)), 1, MOST_ORDERS):
             columns = tuple(3 * i + axis for i in order for axis in range(3))
             words = f"of quadrotors in the order {', '.join(map(str, order))}"
             yield Cause(words, tuple(Correction(name, columns) for name in group))
     quadrotors: list[list[int] | None] = [None, *([i] for i in range(count) if count > 1)]
     for group, only in itertools.product(groups, quadrotors):
-        if len(group) > 1 and only is None and count > 1:
-            pass
-        for order, signs in itertools.product(ORDERS, SIGNS):
-            if (order, signs) in ((ORDERS[0], SIGNS[0]), (ORDERS[0], SIGNS[-1]) if only is None else ()):
-                continue
-            where = "" if only is None else f" at quadrotor {only[0]}"
-            found = tuple(_mapped(name, 3 * count, order, signs, only) for name in group)
-            yield Cause(f"{_axes(order, signs)}{where}", found)
+        where = "" if only is None else f" at quadrotor {only[0]}"
+        for order, signs in MISTAKES if len(group) == 1 else (*ROTATIONS, (ORDERS[0], SIGNS[-1])):
+            yield Cause(
+                f"{_axes(order, signs)}{where}", tuple(_mapped(name, 3 * count, order, signs, only) for name in group)
+            )
 
 
 def _commands(name: str, width: int) -> Iterator[Cause]:

@@ -1,7 +1,7 @@
 """Corrections of a log in the words of its map: other columns, signs, units, axes, powers and times of a stream.
 
-`Correction.applied` is what the reader does with the same keys, so a correction that makes a log agree with physics is
-one that works when it is pasted into the map.
+What a map did to a stream is undone, and done again by the corrected map, with the functions that the reader uses. So a
+correction that makes a log agree with physics is one that works when it is pasted into the map.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.logs.log import MOTION, Log, Stream, quaternion_product, rotated, stream_channel
+from tandemlift.analysis.logs.log import MOTION, Log, Stream, conjugate, quaternion_product, rotated
 from tandemlift.core.types import Array
 
 POSITION, VELOCITY, ATTITUDE = MOTION
@@ -30,6 +30,7 @@ UNITS |= {"mm": ("m", 1e-3), "mm/s": ("m/s", 1e-3), "ms": ("s", 1e-3), "us": ("s
 
 UP = {"y": (math.sqrt(0.5), math.sqrt(0.5), 0.0, 0.0)}
 """World axes with another axis up than z: the turn into ours, a quaternion; x stays."""
+NONE = (0.0, 0.0, 0.0)
 
 
 def factor_of(unit: str) -> float:
@@ -39,14 +40,21 @@ def factor_of(unit: str) -> float:
 
 def turned_by(degrees: Sequence[float]) -> Array:
     """The quaternion of a rotation vector [deg]."""
-    vector = np.radians(np.array(degrees, dtype=float))
-    angle = float(np.linalg.norm(vector))
-    half = 0.5 * math.sin(0.5 * angle) / (0.5 * angle) if angle > 1e-12 else 0.5
-    return np.array([math.cos(0.5 * angle), *(half * vector)])
+    half = 0.5 * np.radians(np.array(degrees, dtype=float))
+    return np.array([math.cos(np.linalg.norm(half)), *(half * np.sinc(np.linalg.norm(half) / np.pi))])
+
+
+def _turned(name: str, values: Array, before: Array, after: Array) -> Array:
+    """Attitudes before ⊗ q ⊗ after; vectors of all other streams turned by `before`."""
+    if name == ATTITUDE:
+        q = quaternion_product(np.tile(before, (len(values), 1)), values)
+        return quaternion_product(q, np.tile(after, (len(values), 1)))
+    parts = values.reshape(-1, 3)
+    return rotated(np.tile(before, (len(parts), 1)), parts).reshape(values.shape)
 
 
 def in_body_and_world(
-    name: str, stream: Stream, *, turn: Sequence[float] = (0.0, 0.0, 0.0), up: str = "z", delay: float = 0.0
+    name: str, stream: Stream, *, turn: Sequence[float] = NONE, up: str = "z", delay: float = 0.0, back: bool = False
 ) -> Stream:
     """A stream along body axes and axes of a world with z up, at the times of its sampling.
 
@@ -56,117 +64,125 @@ def in_body_and_world(
         turn: rotation vector [deg] of the sensor's axes from the body's.
         up: the axis of its world that is up, "z" or "y".
         delay: by how much [s] its stamps are late.
+        back: whether to undo all this.
     """
     time, values = stream
+    still, q = np.array([1.0, 0.0, 0.0, 0.0]), turned_by(turn)
+    to_world = np.array(UP.get(up, (1.0, 0.0, 0.0, 0.0)))
+    if back:
+        q, to_world, delay = conjugate(q), conjugate(to_world), -delay
     if any(turn):
-        q = turned_by(turn)
-        if name == ATTITUDE:
-            values = quaternion_product(values, np.tile(q * [1.0, -1.0, -1.0, -1.0], (len(values), 1)))
-        else:
-            parts = values.reshape(-1, 3)
-            values = rotated(np.tile(q, (len(parts), 1)), parts).reshape(values.shape)
+        values = _turned(name, values, still, conjugate(q)) if name == ATTITUDE else _turned(name, values, q, still)
     if up in UP:
-        q = np.tile(UP[up], (len(values), 1))
-        values = quaternion_product(q, values) if name == ATTITUDE else rotated(q, values)
+        values = _turned(name, values, to_world, still)
     return Stream(time - delay, values)
 
 
 class Correction(NamedTuple):
-    """A correction of one stream.
+    """A correction of one stream's table in a map.
 
     Attributes:
         stream: its name.
-        order: the columns that should have been given, by their numbers; empty for all as they are.
-        factor: of each, or of all.
-        power: of the values, before the factor.
-        turn: as in `in_body_and_world`; so `up` and `delay`.
-        frame: "body" for a velocity that is along body axes, "world" for one that is not.
+        order: the columns that should have been given in place of those that were, by their numbers; empty: these.
+        signs: by which the scale of each is wrong; empty: by none.
+        unit: in place of the given one; "" for that.
+        plain: whether the sizes of the scale fall away.
+        power: times the given one.
+        turn: rotation vector [deg] that comes after the given one.
+        up: in place of the given one.
+        delay: beside the given one [s].
+        frame: in place of the given one, "body" or "world".
     """
 
     stream: str
     order: tuple[int, ...] = ()
-    factor: tuple[float, ...] = (1.0,)
+    signs: tuple[float, ...] = ()
+    unit: str = ""
+    plain: bool = False
     power: float = 1.0
-    turn: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    up: str = "z"
+    turn: Sequence[float] = NONE
+    up: str = ""
     delay: float = 0.0
     frame: str = ""
 
-    def applied(self, log: Log) -> Log:
-        """The log with it."""
-        time, values = log[self.stream]
-        values = values[:, list(self.order)] if self.order else values
-        if self.power != 1.0:
-            values = np.maximum(values, 0.0) ** self.power
-        stream = Stream(time, values * np.array(self.factor))
-        if self.frame:
-            q = log[ATTITUDE].at(time) * ([1.0] * 4 if self.frame == "body" else [1.0, -1.0, -1.0, -1.0])
-            stream = Stream(time, rotated(q, stream.values))
-        stream = in_body_and_world(self.stream, stream, turn=self.turn, up=self.up, delay=self.delay)
-        return replace(log, streams={**log.streams, self.stream: stream})
-
-    def keys(self, own: Mapping[str, Any] | None, width: int) -> dict[str, Any]:
-        """The keys of the stream's table in the map that it changes, with their values.
+    def way(self, own: Mapping[str, Any], width: int) -> dict[str, Any]:
+        """The keys of a stream's table in the map that it changes, with their values.
 
         Args:
-            own: that table as it was read; None for a log without a map, whose columns have numbers.
+            own: that table as it was read; of a log without a map, nothing, and its columns have numbers.
             width: number of columns of the stream.
         """
-        way, found = dict(own or {}), dict[str, Any]()
-        columns = list(way.get("columns") or map(str, range(width)))
+        found, columns = dict[str, Any](), list(own.get("columns") or map(str, range(width)))
         per = len(columns)
-        order = list(self.order) or list(range(width))
-        scale = np.broadcast_to(np.array(way.get("scale", 1.0), dtype=float), (per,))
-        whole = (np.tile(scale, width // per) * factor_of(way.get("unit", "1")))
-        whole = np.abs(whole) ** self.power if self.power != 1.0 else whole
-        if order != list(range(width)):
-            if per == width:
-                found["columns"] = [columns[i] for i in order]
-            else:  # one topic after another
-                topics, each = list(way.get("topic", ())), [i % per for i in order[:per]]
-                if each != list(range(per)):
-                    found["columns"] = [columns[i] for i in each]
-                places = [order[i] // per for i in range(0, width, per)]
-                if places != sorted(places):
-                    found["topic"] = [topics[i] for i in places] if len(topics) == len(places) else places
-        factor = np.broadcast_to(np.array(self.factor, dtype=float), (width,))
-        if self.power != 1.0:
-            found["power"] = float(f"{self.power * way.get('power', 1.0):.4g}")
-        if np.any(factor != 1.0) or (self.power != 1.0 and np.any(whole != 1.0)):
-            found |= _scaled(self.stream, factor * whole[order], way, per)
+        if self.order and per == width:
+            found["columns"] = [columns[i] for i in self.order]
+        elif self.order:  # one topic after another
+            topics, each = list(own["topic"]), [i % per for i in self.order[:per]]
+            found |= {"columns": [columns[i] for i in each]} if each != [*range(per)] else {}
+            places = [self.order[i] // per for i in range(0, width, per)]
+            found |= {"topic": [topics[i] for i in places]} if places != sorted(places) else {}
+        scale = np.broadcast_to(np.array(own.get("scale", 1.0), dtype=float), (per,))
+        changed = np.sign(scale) if self.plain else scale
+        changed = changed * self.signs[:per] if self.signs else changed
+        if np.any(changed != scale):
+            found["scale"] = float(changed[0]) if np.all(changed == changed[0]) else changed.tolist()
+        found |= {"unit": self.unit} if self.unit else {}
+        found |= {"power": self.power * own.get("power", 1.0)} if self.power != 1.0 else {}
         if any(self.turn):
-            found["turn"] = [float(f"{x:.4g}") + 0.0 for x in self.turn]
-        if self.up != "z":
-            found["up"] = self.up
-        if self.delay:
-            found["delay"] = round(way.get("delay", 0.0) + self.delay, 4)
-        if self.frame:
-            found["frame"] = "" if self.frame == "world" else self.frame
-        return found
+            q = quaternion_product(turned_by(self.turn), turned_by(own.get("turn", NONE)))
+            size = float(np.linalg.norm(q[1:]))
+            angle = 2.0 * math.atan2(size, abs(q[0])) * (-1.0 if q[0] < 0.0 else 1.0)
+            found["turn"] = [round(math.degrees(float(x)) * angle / max(size, 1e-12), 2) + 0.0 for x in q[1:]]
+        found |= {"up": self.up} if self.up else {}
+        found |= {"delay": round(own.get("delay", 0.0) + self.delay, 4)} if self.delay else {}
+        return found | ({"frame": self.frame.replace("world", "")} if self.frame else {})
 
 
-def _scaled(name: str, whole: Array, way: Mapping[str, Any], per: int) -> dict[str, Any]:
-    """Unit and scale for the factors of all columns."""
-    own = stream_channel(name).unit
-    signs = np.sign(whole[:per])
-    units = ["1", *(unit for unit, (other, _) in UNITS.items() if other == own)]
-    for unit in units:
-        if np.allclose(np.abs(whole), factor_of(unit), rtol=2e-3):
-            found: dict[str, Any] = {} if unit == way.get("unit", "1") else {"unit": unit}
-            before = np.broadcast_to(np.array(way.get("scale", 1.0), dtype=float), (per,))
-            if np.any(before != signs):
-                found["scale"] = int(signs[0]) if np.all(signs == signs[0]) else [int(s) for s in signs]
-            return found
-    sizes = [float(f"{x / factor_of(way.get('unit', '1')):.4g}") for x in whole[:per]]
-    return {"scale": sizes[0] if len(set(sizes)) == 1 else sizes}
+def corrected(log: Log, corrections: Sequence[Correction]) -> Log:
+    """A log as it would have been read by the corrected map."""
+    by_name = {one.stream: one for one in corrections}
+    if ATTITUDE in by_name and VELOCITY in log and log.ways.get(VELOCITY, {}).get("frame"):
+        by_name.setdefault(VELOCITY, Correction(VELOCITY))
+    raw = {name: _as_given(log, name) for name in by_name}
+    streams = dict(log.streams)
+    for name in sorted(by_name, key=lambda name: name != ATTITUDE):
+        one, own, (time, values) = by_name[name], log.ways.get(name, {}), raw[name]
+        way = {**own, **one.way(own, values.shape[1])}
+        values = values[:, list(one.order)] if one.order else values
+        values = np.sign(values) * np.abs(values) ** way.get("power", 1.0) * _scale(way, values.shape[1])
+        if one.signs and len(one.signs) > len(np.atleast_1d(way.get("scale", 1.0))) > 1:
+            values = values * np.array(one.signs) / np.resize(one.signs[: len(way["scale"])], len(one.signs))
+        keys = {key: way[key] for key in ("turn", "up", "delay") if key in way}
+        stream = in_body_and_world(name, Stream(time, values), **keys)
+        if way.get("frame"):
+            q = Stream(*streams[ATTITUDE]).at(stream.time)
+            stream = Stream(stream.time, rotated(q, stream.values))
+        streams[name] = stream
+    return replace(log, streams=streams)
+
+
+def _as_given(log: Log, name: str) -> Stream:
+    """A stream before its map: numbers as in the columns of the file."""
+    way, stream = log.ways.get(name, {}), log[name]
+    if way.get("frame"):
+        stream = Stream(stream.time, rotated(conjugate(log[ATTITUDE].at(stream.time)), stream.values))
+    keys = {key: way[key] for key in ("turn", "up", "delay") if key in way}
+    time, values = in_body_and_world(name, stream, back=True, **keys)
+    values = values / _scale(way, values.shape[1])
+    return Stream(time, np.sign(values) * np.abs(values) ** (1.0 / way.get("power", 1.0)))
+
+
+def _scale(way: Mapping[str, Any], width: int) -> Array:
+    """The factors (width,) of a stream's columns."""
+    scale = np.atleast_1d(np.array(way.get("scale", 1.0), dtype=float))
+    return np.resize(scale, width) * factor_of(way.get("unit", "1"))
 
 
 def in_words(corrections: Iterable[Correction], log: Log) -> str:
-    """Corrections as lines of a map on one line, tables separated by blanks: what is to be pasted."""
+    """Corrections as tables of a map on one line: what is to be pasted."""
     texts = []
     for one in corrections:
-        own = log.ways.get(one.stream)
-        keys = one.keys(own, log[one.stream].values.shape[1])
+        keys = one.way(log.ways.get(one.stream, {}), log[one.stream].values.shape[1])
         texts.append(f"[{one.stream}] " + ", ".join(f"{key} = {_toml(value)}" for key, value in keys.items()))
     return " ".join(texts)
 

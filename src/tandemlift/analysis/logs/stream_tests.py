@@ -8,6 +8,8 @@ sides of a law that holds for every rigid vehicle,
     the change of the velocity + g  =  R · accelerometer, but for the place of the unit (world axes)
     the sum of the joints' forces   =  payload's mass · accelerometer                  (body axes)
     Σ (M + r × F) of the joints     =  J α + m c × f                                   (body axes)
+    a joint's force                 =  thrusts of its quadrotor − m · accelerometer there (body axes)
+    M + d × F + J α of a quadrotor  =  moments of its thrusts                          (body axes)
     accelerometer                   =  sum of the thrusts over the mass                (z)
     angular acceleration            =  J⁻¹ B thrusts                                   (body axes)
 
@@ -20,7 +22,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -41,7 +43,7 @@ from tandemlift.analysis.logs.log import (
     rotated,
 )
 from tandemlift.core.types import GRAVITY, Array
-from tandemlift.parts.mechanics.vehicle import Vehicle
+from tandemlift.parts.mechanics.vehicle import Vehicle, mixer
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
 
 POSITION, VELOCITY, ATTITUDE = MOTION
@@ -56,6 +58,8 @@ FEWEST = 200  # cells
 CLEAR = 8.0  # times the noise's square: a signal
 PART = 1.0  # s
 TOLD = 0.12  # standard deviation of a scale that is known
+
+ACROSS, UPWARD = np.array([1.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0])
 
 Truths = NDArray[np.bool_]
 
@@ -88,6 +92,9 @@ KINDS = {
     "lever": Kind((0.4, 2.5), SLOW, SMOOTH, pushed=True),
     "lift": Kind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
     "twist": Kind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
+    "side": Kind((0.4, 2.5), SLOW, SMOOTH),
+    "thrust": Kind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16)),
+    "torque": Kind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16)),
 }
 
 
@@ -132,6 +139,20 @@ def quick(v: Array, slow: float) -> Array:
     width = min(round(slow / CELL), len(v) - 2) | 1
     ones = np.convolve(np.ones(len(v)), np.ones(width), "same")
     return v - np.stack([np.convolve(c, np.ones(width), "same") for c in v.T], axis=1) / ones[:, None]
+
+
+def thinned(log: Log) -> Log:
+    """A log with means of neighbours in place of samples that come faster than two in a cell."""
+    streams = dict[str, Stream]()
+    for name, (time, values) in log.items():
+        many = min(int(0.5 * CELL * log.rate(name) + 0.01), max(len(time) // 8, 1))
+        count = len(time) // max(many, 1) * many
+        if many > 1 and name != ATTITUDE:
+            parts = (v[:count].reshape(-1, many, *v.shape[1:]).mean(axis=1) for v in (time, values))
+            streams[name] = Stream(*parts)
+        else:
+            streams[name] = Stream(time[::many], values[::many]) if many > 1 else Stream(time, values)
+    return replace(log, streams=streams)
 
 
 @dataclass
@@ -218,7 +239,7 @@ class Grid:
     def noise(self, name: str, cells: int, *, derivative: bool = False) -> Array:
         """The variance that the white noise of a stream's samples leaves after smoothing (3,): of joints, of their sum."""
         square, per = self._kept("noise", name, self._noise)[:3], float(self._kept("noise", name, self._noise)[3])
-        width = cells * CELL
+        width, per = cells * CELL, max(per, CELL) if name in MOTION else per  # of these, the ends of cells count
         return np.asarray(square * per * (2.0 / width**3 if derivative else 2.0 / (3.0 * width)))
 
     def _noise(self, name: str) -> Array:
@@ -264,7 +285,7 @@ def fitted(y: Array, x: Array, good: Truths, noise: tuple[Array, Array], kind: K
     scale = _scales(a, b, noise[1]) if kind.pushed else np.diag(cross) / n / np.maximum(power_x - noise[1], 0.3 * power_x + 1e-300)
     rest = np.mean((a - b * scale) ** 2, axis=0)
     scale_sd = np.sqrt(rest / np.maximum(power_x, 1e-300) / own)
-    told = (scale_sd < TOLD) & (power_x > noise[1])
+    told = (scale_sd < TOLD) & (power_x > 3.0 * noise[1])
     left = np.mean((a - b * np.clip(scale, *kind.scales)) ** 2, axis=0) / np.maximum(power_y, 1e-300)
     slope = np.mean(np.gradient(a, CELL, axis=0) ** 2, axis=0)
     whole = np.mean((a - b @ A.T) ** 2, axis=0)
@@ -333,8 +354,12 @@ LAWS = {
     "lever": (*JOINTS, RATES),
     "lift": (FORCE, COMMANDS),
     "twist": (RATES, COMMANDS),
+    "side": (JOINTS[0], FORCE, RATES),
+    "thrust": (JOINTS[0], FORCE, RATES, COMMANDS),
+    "torque": (JOINTS[1], JOINTS[0], RATES, COMMANDS),
 }
-"""The streams of each law: those of y, then those of x."""
+"""The streams of each law: those of y, then those of x. The last three are of each quadrotor, with its number behind."""
+OF_EACH = ("side", "thrust", "torque")
 
 
 class Laws:
@@ -348,20 +373,24 @@ class Laws:
         self.table, self.vehicle = table, Vehicle.from_settings(table)
         self.thrust_constants = np.array([q.thrust_constant for q in table.quadrotors for _ in range(4)])
         self.joints = np.array([q.joint_position for q in table.quadrotors])
+        self.at = np.zeros(3)  # m from the payload's origin: the accelerometer
+        count = len(table.quadrotors)
+        self.names = [name for law in LAWS for name in ([f"{law} {i}" for i in range(count)] if law in OF_EACH else [law])]
         self._means = dict[tuple[object, ...], tuple[Array, Stream]]()
         self._known = dict[tuple[object, ...], tuple[Fit | None, list[Stream]]]()  # streams are kept: ids stay theirs
 
-    def fits(self, log: Log, names: Iterable[str] = LAWS) -> Iterator[tuple[str, Fit | None]]:
+    def fits(self, log: Log, names: Iterable[str] | None = None) -> Iterator[tuple[str, Fit | None]]:
         """The fit of each law whose streams the log has, by its name."""
         commands = COMMANDS if COMMANDS in log else SPEED_COMMANDS
         grid = Grid(log, self._means)
-        for name in names:
-            streams = LAWS[name]
+        for name in self.names if names is None else names:
+            law, *number = name.split()
+            streams = LAWS[law]
             own = [commands if stream == COMMANDS else stream for stream in streams]
             if all(stream in log for stream in own):
                 key = (name, grid.begin, grid.count, *(x for stream in own for x in map(id, log[stream])))
                 if key not in self._known:
-                    self._known[key] = getattr(self, f"_{name}")(grid, commands), [log[stream] for stream in own]
+                    self._known[key] = getattr(self, f"_{law}")(grid, commands, *map(int, number)), [log[stream] for stream in own]
                 yield name, self._known[key][0]
 
     def _turn(self, g: Grid, _: str) -> Fit | None:
@@ -416,10 +445,12 @@ class Laws:
         noise = g.noise(JOINTS[1], c) + g.noise(JOINTS[0], c) / len(self.joints) * arm, g.noise(RATES, c, derivative=True) * np.square(J)
         return fitted(y, x, g.there(c, RATES, *JOINTS), noise, KINDS["lever"])
 
-    def _wrench(self, g: Grid, commands: str) -> Array:
+    def _thrusts(self, g: Grid, commands: str) -> Array:
         u = g.mean(commands)
-        thrusts = u if commands == COMMANDS else u * u * self.thrust_constants
-        return np.asarray(thrusts @ self.vehicle.effect.T)
+        return u if commands == COMMANDS else u * u * self.thrust_constants
+
+    def _wrench(self, g: Grid, commands: str) -> Array:
+        return np.asarray(self._thrusts(g, commands) @ self.vehicle.effect.T)
 
     def _clear(self, g: Grid) -> Truths:
         """Where the vehicle is clear of its lowest place, if it rose at all."""
@@ -446,6 +477,34 @@ class Laws:
         x = smoothed(wrench[:, 1:] @ np.linalg.inv(self.vehicle.inertia).T, c)
         noise = g.noise(RATES, c, derivative=True), np.zeros(3)
         return fitted(y, x, g.there(c, RATES, commands) & self._flies(g, wrench[:, 0]), noise, KINDS["twist"])
+
+    def _inertial(self, g: Grid, i: int) -> tuple[Array, Array]:
+        """(Mass times specific force of a quadrotor [N] (count, 3), the variance of its noise (3,))."""
+        c, q, w = g.cells, self.table.quadrotors[i], g.mean(RATES)
+        r, turning = np.array(q.position) - self.at, np.gradient(w, CELL, axis=0)
+        force = q.mass * (g.mean(FORCE) + np.cross(turning, r) + np.cross(w, np.cross(w, r)))
+        return force, q.mass**2 * (g.noise(FORCE, c) + g.noise(RATES, c, derivative=True) * float(r @ r))
+
+    def _side(self, g: Grid, _: str, i: int) -> Fit | None:
+        c, (force, noise) = g.cells, self._inertial(g, i)
+        y = smoothed(g.mean(JOINTS[0])[:, 3 * i : 3 * i + 3] * ACROSS, c)
+        return fitted(y, smoothed(-force * ACROSS, c), g.there(c, JOINTS[0], FORCE, RATES), (g.noise(JOINTS[0], c), noise), KINDS["side"])
+
+    def _thrust(self, g: Grid, commands: str, i: int) -> Fit | None:
+        c, (force, noise) = g.cells, self._inertial(g, i)
+        y = smoothed((g.mean(JOINTS[0])[:, 3 * i : 3 * i + 3] + force) * UPWARD, c)
+        x = smoothed(self._thrusts(g, commands)[:, 4 * i : 4 * i + 4].sum(axis=1)[:, None] * UPWARD, c)
+        good = g.there(c, JOINTS[0], FORCE, RATES, commands) & self._clear(g)
+        return fitted(y, x, good, (g.noise(JOINTS[0], c) + noise, np.zeros(3)), KINDS["thrust"])
+
+    def _torque(self, g: Grid, commands: str, i: int) -> Fit | None:
+        c, q, w = g.cells, self.table.quadrotors[i], g.mean(RATES)
+        F, M = (g.mean(name)[:, 3 * i : 3 * i + 3] for name in JOINTS)
+        d, J = np.subtract(q.joint_position, q.position), np.array(q.tensor)
+        y = smoothed(M + np.cross(d, F) + np.gradient(w, CELL, axis=0) @ J.T, c)
+        x = smoothed(self._thrusts(g, commands)[:, 4 * i : 4 * i + 4] @ mixer(q)[1:].T, c)
+        noise = g.noise(JOINTS[1], c) + float(d @ d) * g.noise(JOINTS[0], c), np.zeros(3)
+        return fitted(y, x, g.there(c, *JOINTS, RATES, commands) & self._clear(g), noise, KINDS["torque"])
 
     def place(self, log: Log) -> tuple[Array, Array] | None:
         """(Where the accelerometer is, from the payload's origin [m], body axes; standard deviations), by the motion.
