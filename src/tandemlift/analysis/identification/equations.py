@@ -66,15 +66,17 @@ class Estimate:
 
     Attributes:
         q: coordinates of the vehicle (P,).
-        fixed: errors of sensors that stay: the point (3), the accelerometer's place (3), the turns of joints (3 N).
+        fixed: errors of sensors that stay: the point (3), the turns of joints (3 N), the accelerometer's place (3).
         biases: of each group of windows (groups, B).
         noise: standard deviations by stream.
+        placed: whether the accelerometer's place is among `fixed`.
     """
 
     q: Array
     fixed: Array
     biases: Array
     noise: dict[str, float] = field(default_factory=dict)
+    placed: bool = False
 
     @property
     def point(self) -> Array:
@@ -84,12 +86,12 @@ class Estimate:
     @property
     def turns(self) -> Array:
         """The rotation vectors by which the axes of the joints' sensors are turned (N, 3) [rad]."""
-        return self.fixed[6:].reshape(-1, 3)
+        return self.fixed[3 : len(self.fixed) - 3 * self.placed].reshape(-1, 3)
 
     @property
     def place(self) -> Array:
         """The place of the accelerometer from the payload's origin [m]."""
-        return self.fixed[3:6]
+        return self.fixed[-3:] if self.placed else np.zeros(3)
 
 
 class Equations(NamedTuple):
@@ -154,7 +156,8 @@ class Linearisation:
             every = np.ones(len(own), bool)
             self.parts.append(LogInSearch(predictor, predictor.starts(), own + groups, (groups, middle), every))
             groups += int(own.max()) + 1
-        self.estimate = Estimate(np.zeros(len(unknowns)), self._fixed, np.zeros((groups, len(priors.bias))))
+        biases = np.zeros((groups, len(priors.bias)))
+        self.estimate = Estimate(np.zeros(len(unknowns)), self._fixed, biases, placed=priors.placed)
         self.white = self._first_noise()
         self.estimate.noise = dict(self.white)
         self.steps = 0
@@ -184,7 +187,7 @@ class Linearisation:
         squares, moved = predictor.squares(n, True)
         predicted = predictor.predicted(part.starts, n, squares, e.point)
         derivatives = predictor.derivatives(part.starts, e.q, n, squares, moved, e.point)
-        if self.priors.place_sd:
+        if self.priors.placed:
             predicted[FORCE] = at_place(predicted[FORCE], predicted[RATES], e.place, w.step)
             block = w.step * w.block
             own = derivatives.streams
@@ -217,8 +220,8 @@ class Linearisation:
             found.rows[name] = np.where(count > 0.0, rows, np.nan)
         return found
 
-    def _columns(self, d: PredictedDerivatives, name: str, place: slice, late: Array, span: float) -> Array:
-        """Derivatives (W, C, blocks, width) over start, biases, vehicle, fixed errors."""
+    def _columns(self, d: PredictedDerivatives, name: str, place: slice, late: Array, span: float = 1.0) -> Array:
+        """Derivatives (W, C, blocks, width) over start, biases, vehicle, fixed errors; `span` of a block [s]."""
         J, base, B, K = d.streams[name], d.base[name][:, :-1], len(self.priors.bias), self.priors.count
         moved = J.shape[1] - STARTS  # coordinates of the vehicle, and the point
         full = np.zeros((len(J), STARTS + B + moved + K - 3, J.shape[2] - 1, J.shape[3]))
@@ -231,14 +234,14 @@ class Linearisation:
                 full[:, into] += late[:, None, :, None] * (J[:, of, 1:] - J[:, of, :-1])
         for i, k in enumerate(range(place.start, place.stop)):
             full[:, STARTS + k, :, i] = 1.0
-        if name == FORCE and self.priors.place_sd:
+        if name == FORCE and self.priors.placed:
             rates, unit = d.base[RATES][:, :-1], np.eye(3)
             turning = np.gradient(d.base[RATES], span, axis=1)[:, :-1]
             for i in range(3):
                 swept = np.cross(rates, np.cross(rates, unit[i]))
-                full[:, STARTS + B + moved + i] = np.cross(turning, unit[i]) + swept
+                full[:, i - 3] = np.cross(turning, unit[i]) + swept
         if name in JOINTS and self.priors.joints:
-            full[:, STARTS + B + moved + 3 :] = by_turns(base)
+            full[:, STARTS + B + moved : STARTS + B + moved + 3 * self.priors.joints] = by_turns(base)
         return full
 
     def _reduced(self, equations: list[Equations]) -> NormalEquations:

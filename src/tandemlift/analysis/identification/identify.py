@@ -15,6 +15,7 @@ from tandemlift.analysis.identification.identification import Identification, Ro
 from tandemlift.analysis.identification.judgement import (
     Covariance,
     Whiteness,
+    assumptions_of,
     correlations_of,
     covariance_of,
     data_information,
@@ -281,6 +282,7 @@ def _details(
         "efficiency": float(np.median(covariance.efficiency)),
         "motion_point": e.point.tolist(),
         "accelerometer_place": e.place.tolist(),
+        "assumptions": assumptions_of(search),
         "streams": [one._asdict() for part in search.parts for one in part.windows.tests],
         "joint_turns": e.turns.tolist(),
         "biases": {name: e.biases[:, place].mean(axis=0).tolist() for name, place in search.priors.places.items()},

@@ -8,7 +8,7 @@ motion measurement follows a point near the centre of mass.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -44,8 +44,7 @@ class SensorPriors:
         bias: standard deviations of the biases (B,).
         walk: of their change over a second (B,).
         joints: number of joints whose sensors' axes are unknown.
-        place: of the accelerometer, from the payload's origin [m] (3), where the search starts.
-        place_sd: standard deviation of it [m]; 0 if it is known.
+        place: of the accelerometer, from the payload's origin [m] (3), where the search starts; None if it is there.
     """
 
     places: dict[str, slice]
@@ -53,23 +52,27 @@ class SensorPriors:
     bias: Array
     walk: Array
     joints: int
-    place: Array = field(default_factory=lambda: np.zeros(3))
-    place_sd: float = 0.0
+    place: Array | None = None
+
+    @property
+    def placed(self) -> bool:
+        """Whether the accelerometer's place is searched for."""
+        return self.place is not None
 
     @property
     def count(self) -> int:
-        """Number of errors that do not change: the point's place, the accelerometer's, and a rotation at each joint."""
-        return 6 + 3 * self.joints
+        """Number of errors that do not change: the point's place, a rotation at each joint, the accelerometer's place."""
+        return 3 + 3 * self.joints + 3 * self.placed
 
     @property
     def sd(self) -> Array:
         """Standard deviations of these."""
-        return np.array([POINT] * 3 + [max(self.place_sd, 1e-7)] * 3 + [TURN] * 3 * self.joints)
+        return np.array([POINT] * 3 + [TURN] * 3 * self.joints + [PLACE] * 3 * self.placed)
 
     @property
     def start(self) -> Array:
         """Where the search for them starts."""
-        return np.concatenate([np.zeros(3), self.place, np.zeros(3 * self.joints)])
+        return np.concatenate([np.zeros(3 + 3 * self.joints), self.place if self.place is not None else []])
 
 
 def sensor_priors(
@@ -93,9 +96,7 @@ def sensor_priors(
             walk += [max(getattr(own, f"{prefix}drift"), drift)] * width
     clocks = {name: len(bias) + i for i, (names, *_) in enumerate(CLOCKS.values()) for name in names}
     bias, walk = ([*own, *(clock[i] for clock in CLOCKS.values())] for i, own in ((1, bias), (2, walk)))
-    heard = joints if JOINTS[0] in streams else 0
-    at = {} if place is None else {"place": place, "place_sd": PLACE}
-    return SensorPriors(places, clocks, np.array(bias), np.array(walk), heard, **at)
+    return SensorPriors(places, clocks, np.array(bias), np.array(walk), joints if JOINTS[0] in streams else 0, place)
 
 
 def residuals(

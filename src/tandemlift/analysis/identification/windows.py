@@ -130,6 +130,7 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
     """
     check_columns(log, mission.vehicle, mission.mission.name)
     log.require(*IMU, MOTION[0], MOTION[2])
+    _check_commands(log)
     streams = check_streams(log, mission.vehicle)
     log, notes = _without_held(log)
     commands = _speeds(log, mission.vehicle)
@@ -227,16 +228,22 @@ def _between(times: Array, stream: Stream) -> Array:
     return np.array([np.interp(times, stream.time, v, left=0.0, right=0.0) for v in stream.values.T]).T
 
 
-def _speeds(log: Log, vehicle: VehicleTable) -> Stream:
-    """The commanded speeds [rad/s]; of thrusts, by the vehicle's thrust constants."""
+def _check_commands(log: Log) -> None:
+    """Refuse a log without commands, or with those of a rotor that never change."""
     if SPEED_COMMANDS not in log and COMMANDS not in log:
         raise InputError(f"{log.source}: has neither {SPEED_COMMANDS} nor {COMMANDS}; it has {', '.join(log)}")
     name = SPEED_COMMANDS if SPEED_COMMANDS in log else COMMANDS
-    rotors = [q for q in vehicle.quadrotors for _ in range(4)]
-    time, values = log[name]
-    if len(time) > 1 and np.ptp(values, axis=0).min() == 0.0:
+    values = log[name].values
+    if len(values) > 1 and np.ptp(values, axis=0).min() == 0.0:
         rotor = int(np.argmin(np.ptp(values, axis=0)))
         raise InputError(f"{log.source}: {name}: column {rotor} is constant, {values[0, rotor]:g}: a dead channel")
+
+
+def _speeds(log: Log, vehicle: VehicleTable) -> Stream:
+    """The commanded speeds [rad/s]; of thrusts, by the vehicle's thrust constants."""
+    name = SPEED_COMMANDS if SPEED_COMMANDS in log else COMMANDS
+    rotors = [q for q in vehicle.quadrotors for _ in range(4)]
+    time, values = log[name]
     most = np.array([q.max_speed for q in rotors])
     if name == COMMANDS:
         values = np.sqrt(np.maximum(values, 0.0) / [q.thrust_constant for q in rotors])

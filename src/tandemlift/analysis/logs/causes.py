@@ -17,19 +17,19 @@ import numpy as np
 from tandemlift.analysis.logs.checks import check_alive, check_log
 from tandemlift.analysis.logs.corrections import UNITS, Correction, corrected, factor_of, in_words
 from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, SPEED_COMMANDS, Log, stream_channel
-from tandemlift.analysis.logs.stream_tests import KINDS, LAWS, OF_EACH, Fit, Laws, thinned
+from tandemlift.analysis.logs.stream_tests import KINDS, LAWS, OF_EACH, SURE, Fit, Laws, thinned
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
 
 POSITION, VELOCITY, ATTITUDE = MOTION
 FORCE, RATES = IMU
-SURE = 5.0  # standard deviations
 LEANS = 10.0  # deg that the mean specific force may be off the vertical
 NOTHING, ALIKE = 0.3, 0.6  # correlation below which two streams have nothing in common; from which a lag is told
 STILL_TOLD = 0.5  # standard deviation of a scale, up to which a law tells something
 AWAY = 0.15  # m from the payload's origin that an accelerometer may be, which the centre of mass may be off, too
 LIKELIER = 12.0  # units of log-likelihood
+FAR = 0.3  # of what a law leaves, for a scale that is e times what the mission says
 WORST = 1.5  # part of a square that a law leaves, at most: more is no worse
 MOST_ORDERS = 24  # of quadrotors that are tried
 NEARLY = 0.15  # relative: a scale so near that of a unit is it
@@ -75,13 +75,13 @@ def findings_of(laws: Laws, log: Log, first: Sequence[str] = ()) -> Iterator[Fin
 
 def _streams(log: Log, law: str) -> list[str]:
     """The streams of a law in a log."""
-    commands = COMMANDS if COMMANDS in log else SPEED_COMMANDS
+    commands = SPEED_COMMANDS if SPEED_COMMANDS in log else COMMANDS
     return [commands if stream == COMMANDS else stream for stream in LAWS[law.split()[0]]]
 
 
 def _of_means(laws: Laws, log: Log) -> Iterator[Finding]:
     """What gravity tells of means."""
-    commands = COMMANDS if COMMANDS in log else SPEED_COMMANDS
+    commands = SPEED_COMMANDS if SPEED_COMMANDS in log else COMMANDS
     constants = laws.constants(log)
     if "up" in constants:
         up = constants["up"]
@@ -119,12 +119,7 @@ def _of_law(name: str, streams: str, fit: Fit | None) -> Iterator[Finding]:
         else:
             yield Finding(streams, test, "hardly moved", "", "not told")
         return
-    off = [
-        i
-        for i in range(3)
-        if fit.told[i]
-        and not (fit.scale[i] + SURE * fit.scale_sd[i] > low and fit.scale[i] - SURE * fit.scale_sd[i] < high)
-    ]
+    off = [i for i in range(3) if fit.told[i] and fit.off[i]]
     apart = [i for i in range(3) if law in ("turn", "path") and fit.moves[i] and fit.left[i] > 0.8]
     shown = ", ".join(f"{'xyz'[i]} {fit.scale[i]:.2f}" for i in range(3) if fit.told[i] or i in apart)
     yield Finding(streams, test, f"scale {shown}", f"{low:g} to {high:g}", _verdict(not off and not apart))
@@ -238,8 +233,13 @@ def causes_of(log: Log, laws: Laws, wrong: Sequence[Finding]) -> list[Cause]:
 
 
 def _unexplained(fits: Mapping[str, Fit | None]) -> float:
-    """The parts of squares that the laws leave, summed over axes."""
-    return sum(float(np.sum(np.minimum(fit.left, WORST))) for fit in fits.values() if fit is not None)
+    """The parts of squares that the laws leave, and how far told scales are from 1, summed over axes."""
+    total = 0.0
+    for fit in fits.values():
+        if fit is not None:
+            total += float(np.sum(np.minimum(fit.left, WORST)))
+            total += FAR * float(np.sum(np.abs(np.log(np.maximum(fit.scale[fit.told], 1e-3)))))
+    return total
 
 
 SIGNS = tuple(itertools.product((1.0, -1.0), repeat=3))

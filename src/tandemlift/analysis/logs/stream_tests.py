@@ -57,6 +57,7 @@ GAP = 0.06  # s: a longer one is left out
 FEWEST = 200  # cells
 CLEAR = 8.0  # times the noise's square: a signal
 PART = 1.0  # s
+SURE = 5.0  # standard deviations
 TOLD = 0.12  # standard deviation of a scale that is known
 
 ACROSS, UPWARD = np.array([1.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0])
@@ -92,9 +93,9 @@ KINDS = {
     "lever": Kind((0.4, 2.5), SLOW, SMOOTH, pushed=True),
     "lift": Kind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
     "twist": Kind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
-    "side": Kind((0.4, 2.5), SLOW, SMOOTH),
-    "thrust": Kind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16)),
-    "torque": Kind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16)),
+    "side": Kind((0.4, 2.5), SLOW, SMOOTH, pushed=True),
+    "thrust": Kind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
+    "torque": Kind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
 }
 
 
@@ -109,6 +110,7 @@ class Fit(NamedTuple):
         moves: whether y moves well above its noise (3,).
         scale: A's diagonal, corrected for the noise of x (3,).
         scale_sd: its standard deviations (3,).
+        off: whether the scale is beyond what is allowed, in every third of a log that may be pushed (3,).
         matrix: A (3, 3).
         left: the part of the square of y that x leaves, with scales that are allowed (3,).
         turn: the rotation vector [rad] by which x must be turned to agree with y (3,).
@@ -122,6 +124,7 @@ class Fit(NamedTuple):
     moves: Truths
     scale: Array
     scale_sd: Array
+    off: Truths
     matrix: Array
     left: Array
     turn: Array
@@ -285,13 +288,26 @@ def fitted(y: Array, x: Array, good: Truths, noise: tuple[Array, Array], kind: K
     scale = _scales(a, b, noise[1]) if kind.pushed else np.diag(cross) / n / np.maximum(power_x - noise[1], 0.3 * power_x + 1e-300)
     rest = np.mean((a - b * scale) ** 2, axis=0)
     scale_sd = np.sqrt(rest / np.maximum(power_x, 1e-300) / own)
+    off = _beyond(scale, scale_sd, kind)
+    for third in np.array_split(np.arange(n), 3) if kind.pushed else ():  # a fault or a wall comes at some time
+        p, q = a[third], b[third]
+        power = np.maximum(np.mean(q * q, axis=0), 1e-300)
+        own_scale = _scales(p, q, noise[1])
+        own_sd = np.sqrt(np.mean((p - q * own_scale) ** 2, axis=0) / power / (own / 3.0))
+        off &= _beyond(own_scale, own_sd, kind) | (own_sd > 2.0 * TOLD)
     told = (scale_sd < TOLD) & (power_x > 3.0 * noise[1])
     left = np.mean((a - b * np.clip(scale, *kind.scales)) ** 2, axis=0) / np.maximum(power_y, 1e-300)
     slope = np.mean(np.gradient(a, CELL, axis=0) ** 2, axis=0)
     whole = np.mean((a - b @ A.T) ** 2, axis=0)
     lag_sd = 1.0 / math.sqrt(max(float(np.sum(slope / np.maximum(whole, 1e-300))) * own, 1e-300))
     turn, turn_sd = _turn_of(a, b, whole, own)
-    return Fit(lag, lag_sd, alike, told, power_y > CLEAR * noise[0], scale, scale_sd, A, left, turn, turn_sd)
+    return Fit(lag, lag_sd, alike, told, power_y > CLEAR * noise[0], scale, scale_sd, off, A, left, turn, turn_sd)
+
+
+def _beyond(scale: Array, sd: Array, kind: Kind) -> Truths:
+    """Whether scales are surely beyond those that are allowed (3,)."""
+    low, high = kind.scales
+    return np.asarray((scale + SURE * sd < low) | (scale - SURE * sd > high))
 
 
 def _scales(a: Array, b: Array, noise: Array) -> Array:
@@ -381,7 +397,7 @@ class Laws:
 
     def fits(self, log: Log, names: Iterable[str] | None = None) -> Iterator[tuple[str, Fit | None]]:
         """The fit of each law whose streams the log has, by its name."""
-        commands = COMMANDS if COMMANDS in log else SPEED_COMMANDS
+        commands = SPEED_COMMANDS if SPEED_COMMANDS in log else COMMANDS
         grid = Grid(log, self._means)
         for name in self.names if names is None else names:
             law, *number = name.split()
@@ -457,7 +473,11 @@ class Laws:
         if POSITION not in g.log:
             return np.ones(g.count, bool)
         z, radius = g.mean(POSITION)[:, 2], max(q.rotor_radius for q in self.table.quadrotors)
-        return np.asarray((z > z.min() + 4.0 * radius) | (z.max() - z.min() < 8.0 * radius))
+        rise, width = float(np.ptp(z)), round(SLOW / CELL) | 1
+        if rise < 2.0 * radius:
+            return np.ones(g.count, bool)
+        low = (z < z.min() + 0.5 * rise).astype(float)
+        return np.asarray(np.convolve(low, np.ones(width), "same") < 0.5)  # nor within half of SLOW
 
     def _flies(self, g: Grid, lift: Array) -> Truths:
         """Where the thrusts carry the vehicle, and it is clear of the floor."""
@@ -540,7 +560,7 @@ class Laws:
         if {FORCE, JOINTS[0]} <= {*log}:
             each = g.mean(JOINTS[0]).reshape(g.count, -1, 3)
             found["load"] = each.mean(axis=0) / (self.table.payload.mass * GRAVITY)
-        commands = COMMANDS if COMMANDS in log else SPEED_COMMANDS
+        commands = SPEED_COMMANDS if SPEED_COMMANDS in log else COMMANDS
         if {FORCE, commands} <= {*log}:
             lift = self._wrench(g, commands)[:, 0]
             flies = self._flies(g, lift)
