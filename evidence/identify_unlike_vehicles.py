@@ -35,11 +35,21 @@ def compared(changes: dict[str, Any], flight: dict[str, np.ndarray], rate: float
     with without_flight_warnings():
         true = tl.load_mission("iris", changes)
         start = tl.load_mission("iris", {f"vehicle.quadrotors.{i}.max_speed": 1600.0 for i in (0, 1)})
-    truth, weighed, began = reference_rows(true), {"vehicle.payload.mass": true.vehicle.payload.mass}, time.process_time()
+    truth, weighed, began = (
+        reference_rows(true),
+        {"vehicle.payload.mass": true.vehicle.payload.mass},
+        time.process_time(),
+    )
     found = tl.identify(log_of(flight, rate, seed), start, weighed=weighed, progress=lambda done, of: None)
     rows = {row.key: [row.value, truth[row.key], row.low, row.high] for row in (*found.rows, *found.whole)}
     seconds = time.process_time() - began
-    return {"seed": seed, "rate": rate, "rows": rows, "left_out": found.details["windows"]["left_out"], "seconds": seconds}
+    return {
+        "seed": seed,
+        "rate": rate,
+        "rows": rows,
+        "left_out": found.details["windows"]["left_out"],
+        "seconds": seconds,
+    }
 
 
 def holds(row: list[float]) -> bool:
@@ -78,11 +88,15 @@ def main() -> None:
         delay = np.array([row["rows"]["actuators.delay"] for row in own])
         halves = (delay[:, 0] - delay[:, 1]) / (0.5 * (delay[:, 3] - delay[:, 2]))
         print(
-            f"{rate:5.0f} Hz: {len(own)} vehicles, {np.mean(inside):.1%} of {len(inside)} intervals hold the truth; delay off "
-            f"by {1e3 * np.mean(delay[:, 0] - delay[:, 1]):+.3f} ms (mean), {np.abs(halves).max():.2f} half intervals at most"
+            f"{rate:5.0f} Hz: {len(own)} vehicles, {np.mean(inside):.1%} of {len(inside)} intervals hold the truth; "
+            f"delay off by {1e3 * np.mean(delay[:, 0] - delay[:, 1]):+.3f} ms (mean), {np.abs(halves).max():.2f} half "
+            "intervals at most"
         )
         keys = {key: np.mean([holds(row["rows"][key]) for row in own]) for key in own[0]["rows"]}
-        print("   least often:", ", ".join(f"{key} {part:.0%}" for key, part in sorted(keys.items(), key=lambda x: x[1])[:5]))
+        print(
+            "   least often:",
+            ", ".join(f"{key} {part:.0%}" for key, part in sorted(keys.items(), key=lambda x: x[1])[:5]),
+        )
 
 
 if __name__ == "__main__":

@@ -90,9 +90,6 @@ class Instruments:
             for name in MOTION:
                 self.change(name, delay=late)
 
-    def set(self, name: str, stream: Stream) -> None:
-        self.streams[name] = stream
-
     def change(self, name: str, **keys: Any) -> None:
         """What the instrument writes, so that these keys make it right."""
         (time_, values), way = self.streams[name], self.map[name]
@@ -112,6 +109,7 @@ class Instruments:
         way |= keys
 
     def scale(self, name: str, signs: list[int]) -> None:
+        """Signs of an instrument."""
         time_, values = self.streams[name]
         self.streams[name] = Stream(time_, values * signs)
         self.map[name]["scale"] = signs
@@ -165,7 +163,14 @@ def mistaken(right: Map, count: int, chance: np.random.Generator) -> tuple[str, 
             wrong[name]["scale"] = scale
     elif kind == "unit":
         name = str(chance.choice([RATES, FORCE, POSITION, *JOINTS, SPEEDS]))
-        other = {RATES: "deg/s", FORCE: "g", POSITION: "mm", JOINTS[0]: str(chance.choice(["kgf", "lbf"])), JOINTS[1]: "mN m", SPEEDS: "rpm"}
+        other = {
+            RATES: "deg/s",
+            FORCE: "g",
+            POSITION: "mm",
+            JOINTS[0]: str(chance.choice(["kgf", "lbf"])),
+            JOINTS[1]: "mN m",
+            SPEEDS: "rpm",
+        }
         wrong[name]["unit"] = "1" if "unit" in right[name] else other[name]
     elif kind == "axis":
         name = str(chance.choice([*vectors, *JOINTS]))
@@ -177,7 +182,9 @@ def mistaken(right: Map, count: int, chance: np.random.Generator) -> tuple[str, 
     elif kind == "order":
         columns = list(right[ATTITUDE]["columns"])
         if chance.random() < 0.5:
-            wrong[ATTITUDE]["columns"] = columns[1:] + columns[:1] if chance.random() < 0.5 else columns[-1:] + columns[:-1]
+            wrong[ATTITUDE]["columns"] = (
+                columns[1:] + columns[:1] if chance.random() < 0.5 else columns[-1:] + columns[:-1]
+            )
         else:
             rotors = [[1, 0, 3, 2], [1, 2, 3, 0], [0, 2, 1, 3], [3, 2, 1, 0]][int(chance.integers(4))]
             columns = list(right[SPEEDS]["columns"])
@@ -194,7 +201,11 @@ def mistaken(right: Map, count: int, chance: np.random.Generator) -> tuple[str, 
             for name in (RATES, FORCE):
                 wrong[name]["scale"] = [a * b for a, b in zip(signs(name), [1, -1, -1], strict=True)]
         else:
-            wrong[ATTITUDE]["turn"] = [0.0, 0.0, 0.0] if "turn" in right[ATTITUDE] else [0.0, 0.0, float(chance.choice([90.0, -90.0, 45.0, 15.0]))]
+            wrong[ATTITUDE]["turn"] = (
+                [0.0, 0.0, 0.0]
+                if "turn" in right[ATTITUDE]
+                else [0.0, 0.0, float(chance.choice([90.0, -90.0, 45.0, 15.0]))]
+            )
     elif kind == "quadrotor":
         if count == 1:
             return mistaken(right, count, chance)
@@ -344,7 +355,10 @@ def main() -> None:
     for kind in sorted({row["kind"] for row in rows}):
         own = [row for row in rows if row["kind"] == kind]
         named = sum(row.get("named", False) for row in own)
-        print(f"{kind:10} {len(own):4} drawn, {sum(row['refused'] for row in own):4} refused, {named:4} with the true cause")
+        print(
+            f"{kind:10} {len(own):4} drawn, {sum(row['refused'] for row in own):4} refused, "
+            f"{named:4} with the true cause"
+        )
     named = sum(row.get("named", False) for row in refused)
     print(f"refused {len(refused)}, the true cause in {named} ({named / max(len(refused), 1):.1%})")
     for row in rows:

@@ -1,9 +1,9 @@
-"""Logs of vehicles that no code of the package simulates: rigid bodies in plain NumPy under SciPy's adaptive integrator.
+"""Logs of vehicles that no code of the package simulates: rigid bodies under SciPy's adaptive integrator.
 
 All vehicles of a batch have as many quadrotors. Each flies itself: a proportional-derivative pilot hovers at 2 m with
 sines in thrust and moments, and commands rotor speeds every 4 ms, which take effect after the vehicle's delay. A
-rotor's speed then follows with its own lag up or down, in closed form. `solve_ivp` (RK45, rtol 1e-6, atol 1e-8) integrates the
-bodies from one command to the next. Sensors read at the instant of their stamp: the accelerometer at the payload's
+rotor's speed then follows with its own lag up or down, in closed form. `solve_ivp` (RK45, rtol 1e-6, atol 1e-8)
+integrates the bodies from one command to the next. Sensors read at the instant of their stamp: the accelerometer at the payload's
 origin, joints by Newton's and Euler's laws of each quadrotor alone, each with white noise and a constant bias.
 """
 
@@ -133,7 +133,15 @@ def flown(missions: list[Mission], seconds: float, seed: int, push: bool = False
     k, up, down = (np.repeat(x, 4, 1) for x in (v.k, v.up, v.down))
     frequencies = np.array([0.35, 0.6, 1.0, 1.7, 2.9, 4.9, 8.0])
     phases = chance.uniform(0.0, 2.0 * np.pi, (V, 4, len(frequencies)))
-    sizes = np.stack([0.12 * whole.mass, 0.1 * np.trace(whole.J, axis1=1, axis2=2), 0.15 * whole.J[:, 1, 1], 0.03 * whole.J[:, 2, 2]], 1)
+    sizes = np.stack(
+        [
+            0.12 * whole.mass,
+            0.1 * np.trace(whole.J, axis1=1, axis2=2),
+            0.15 * whole.J[:, 1, 1],
+            0.03 * whole.J[:, 2, 2],
+        ],
+        1,
+    )
     sizes[:, 1] = 0.2 * whole.J[:, 0, 0]
     s = np.zeros((V, 13))
     s[:, 2], s[:, 6] = 2.0, 1.0
@@ -152,7 +160,10 @@ def flown(missions: list[Mission], seconds: float, seed: int, push: bool = False
         tilt = np.clip(tilt, -0.25, 0.25)
         yaw = np.arctan2(R[:, 1, 0], R[:, 0, 0])
         roll, pitch = np.arctan2(R[:, 2, 1], R[:, 2, 2]), -np.arcsin(np.clip(R[:, 2, 0], -1, 1))
-        ahead, left = tilt[:, 0] * np.cos(yaw) + tilt[:, 1] * np.sin(yaw), tilt[:, 1] * np.cos(yaw) - tilt[:, 0] * np.sin(yaw)
+        ahead, left = (
+            tilt[:, 0] * np.cos(yaw) + tilt[:, 1] * np.sin(yaw),
+            tilt[:, 1] * np.cos(yaw) - tilt[:, 0] * np.sin(yaw),
+        )
         angle = np.stack([roll + left, pitch - ahead, yaw], 1)
         alpha = -np.array([36.0, 36.0, 6.0]) * angle - np.array([9.0, 9.0, 4.0]) * w
         wave = np.sum(np.sin(2.0 * np.pi * frequencies * t + phases), -1) * min(1.0, t / 2.0)
@@ -176,7 +187,9 @@ def flown(missions: list[Mission], seconds: float, seed: int, push: bool = False
                 return to + (x - to) * np.exp(-np.maximum(time, 0.0)[:, None] / np.where(to > x, up, down))
 
             first = relaxed(begin, before, np.minimum(at, switch) - t)
-            return np.where((at > switch)[:, None], relaxed(first, after, np.where(np.isfinite(switch), at - switch, 0.0)), first)
+            return np.where(
+                (at > switch)[:, None], relaxed(first, after, np.where(np.isfinite(switch), at - switch, 0.0)), first
+            )
 
         def thrusts(at: float) -> np.ndarray:
             return k * speeds(at) ** 2
@@ -185,7 +198,9 @@ def flown(missions: list[Mission], seconds: float, seed: int, push: bool = False
             x = x.reshape(V, 13)
             q, rates = x[:, 6:10], x[:, 10:]
             force, turning = moved(np.einsum("vir,vr->vi", whole.effect, thrusts(at)), whole.J, whole.mass, x)
-            spin = 0.5 * np.concatenate([-np.sum(q[:, 1:] * rates, 1, keepdims=True), q[:, :1] * rates + np.cross(q[:, 1:], rates)], 1)
+            spin = 0.5 * np.concatenate(
+                [-np.sum(q[:, 1:] * rates, 1, keepdims=True), q[:, :1] * rates + np.cross(q[:, 1:], rates)], 1
+            )
             pull = np.einsum("vij,vj->vi", rotations(q), force) - [0.0, 0.0, GRAVITY]
             return np.concatenate([x[:, 3:6], pull, spin, turning], 1).ravel()
 
@@ -200,7 +215,12 @@ def flown(missions: list[Mission], seconds: float, seed: int, push: bool = False
         current = np.where(np.isfinite(switch)[:, None], after, current)
         queue = queue[-40:]
     return [
-        {"time": FINE * np.arange(len(out["s"])), **_read(v, whole, i, np.array([x[i] for x in out["s"]]), np.array([x[i] for x in out["thrust"]])), "command_time": np.array(times), "commands": np.array([c[i] for c in commands])}
+        {
+            "time": FINE * np.arange(len(out["s"])),
+            **_read(v, whole, i, np.array([x[i] for x in out["s"]]), np.array([x[i] for x in out["thrust"]])),
+            "command_time": np.array(times),
+            "commands": np.array([c[i] for c in commands]),
+        }
         for i in range(V)
     ]
 
@@ -219,7 +239,9 @@ def _read(v: Vehicles, whole: Whole, i: int, s: np.ndarray, thrust: np.ndarray) 
         F = -v.mq[i, n] * felt(v.r[i, n] - whole.center[i])
         F[:, 2] += own[:, n].sum(1)
         J = v.Jq[i, n]
-        tau = np.stack([own[:, n] @ v.xy[i, n, :, 1], -own[:, n] @ v.xy[i, n, :, 0], own[:, n] @ v.spin[i, n] * v.kappa[i, n]], 1)
+        tau = np.stack(
+            [own[:, n] @ v.xy[i, n, :, 1], -own[:, n] @ v.xy[i, n, :, 0], own[:, n] @ v.spin[i, n] * v.kappa[i, n]], 1
+        )
         forces.append(F)
         torques.append(tau - alpha @ J.T - np.cross(w, w @ J.T) - np.cross(v.d[i, n], F))
     R = rotations(s[:, 6:10])
@@ -236,8 +258,10 @@ def _read(v: Vehicles, whole: Whole, i: int, s: np.ndarray, thrust: np.ndarray) 
     }
 
 
-def log_of(flight: dict[str, np.ndarray], rate: float, seed: int, name: str = "other body", motion: float = 0.005) -> Log:
-    """The log of a flight: IMU and joints at a rate [Hz], motion capture every 5 ms, with noise and biases of a seed."""
+def log_of(
+    flight: dict[str, np.ndarray], rate: float, seed: int, name: str = "other body", motion: float = 0.005
+) -> Log:
+    """The log of a flight: IMU and joints at a rate [Hz], motion capture every 5 ms, noise and biases of a seed."""
     chance, streams = np.random.default_rng(seed), dict[str, Stream]()
     for stream, (noise, bias) in NOISE.items():
         every = round((motion if stream in MOTION else 1.0 / rate) / FINE)
@@ -258,8 +282,16 @@ def drawn(seed: int, count: int = 2, unlike: float = 0.1) -> dict[str, Any]:
     """Changes of mission iris: a vehicle of some quadrotors that are unlike each other, drawn from a seed."""
     chance, start = np.random.default_rng(seed), tl.load_mission("iris")
     base, payload = start.vehicle.quadrotors[0].model_dump(exclude_none=True), start.vehicle.payload
-    places = {1: [[0.0, 0.0]], 2: [[0.0, 1.0], [0.0, -1.0]], 3: [[1.0, 0.0], [-0.6, 0.9], [-0.6, -0.9]], 4: [[0.9, 0.9], [-0.9, 0.9], [-0.9, -0.9], [0.9, -0.9]]}[count]
-    common = {name: 1.0 + 0.15 * chance.uniform(-1.0, 1.0) for name in ("mass", "inertia", "thrust_constant", "torque_per_thrust", "lag_up", "lag_down")}
+    places = {
+        1: [[0.0, 0.0]],
+        2: [[0.0, 1.0], [0.0, -1.0]],
+        3: [[1.0, 0.0], [-0.6, 0.9], [-0.6, -0.9]],
+        4: [[0.9, 0.9], [-0.9, 0.9], [-0.9, -0.9], [0.9, -0.9]],
+    }[count]
+    common = {
+        name: 1.0 + 0.15 * chance.uniform(-1.0, 1.0)
+        for name in ("mass", "inertia", "thrust_constant", "torque_per_thrust", "lag_up", "lag_down")
+    }
     quadrotors = []
     for x, y in places:
         own = dict(base)

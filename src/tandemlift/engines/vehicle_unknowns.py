@@ -21,7 +21,7 @@ from tandemlift.engines.driven_vehicle import VehicleNumbers, vehicle_numbers
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
 
 SPREAD = 0.3  # standard deviation of the prior of a positive number, relative
-ALIKE = 0.05  # likewise, of what makes quadrotors that are alike in the table unlike
+UNLIKE = 0.05  # likewise, of what makes quadrotors that are alike in the table unlike
 THIN = 1e-3  # least second moment over the mean of the three
 MOST = 1.0  # largest standard deviation of the prior of a logarithm
 WEIGHED = 0.0005  # of a weighed one: 95 % of scales err by less than 0.1 %
@@ -147,7 +147,7 @@ class Unknowns:
         for u, x in zip(self.unknowns, q, strict=True):
             field = u.kind.field
             if field in INERTIAS:
-                for i, weight in zip(u.quadrotors or (0,), u.weights or itertools.repeat(1.0)):
+                for i, weight in zip(u.quadrotors or (0,), u.weights or itertools.repeat(1.0), strict=False):
                     change = turned.setdefault((INERTIAS[field], i), np.zeros(6))
                     change[u.axis + 3 * (field == "products")] += weight * x
                 continue
@@ -244,11 +244,11 @@ def unknowns_of(
 
 
 def _unlike(shared: Unknown) -> list[Unknown]:
-    """What makes the quadrotors of a shared number unlike: one number fewer than they are, each against those before."""
+    """What makes the quadrotors of a shared number unlike: each but the first against those before it."""
     count, found = len(shared.quadrotors), list[Unknown]()
     for k in range(1, count):
         weights = np.array([1.0] * k + [-float(k)] + [0.0] * (count - k - 1)) / math.sqrt(k * (k + 1))
-        found.append(shared._replace(sd=ALIKE, weights=tuple(weights.tolist())))
+        found.append(shared._replace(sd=UNLIKE, weights=tuple(weights.tolist())))
     return found
 
 

@@ -50,7 +50,7 @@ def recorders():
     left = log(t, "left", speeds[:, :4], forces[:, :3], 0.003)
     right = log(clock, "right", speeds[:, 4:], forces[:, 3:], 0.003)
     tracker = Log({MOTION[2]: Stream(clock[::4], q[::4]), MOTION[0]: Stream(clock[::4], rates[::4])}, "tracker")
-    return left, right, tracker, speeds, forces
+    return left, right, tracker
 
 
 @pytest.mark.parametrize("which", [1, 2])
@@ -63,7 +63,7 @@ def test_offset_and_drift_of_a_recorder_lie_within_their_intervals(which, record
 
 
 def test_quadrotors_of_two_logs_become_columns_on_one_clock(recorders):
-    left, right, tracker, speeds, forces = recorders
+    left, right, tracker = recorders
     one = joined([left, right, tracker])
     assert {*one} == {RATES, FORCE, SPEED_COMMANDS, JOINTS[0], MOTION[0], MOTION[2]}
     time, values = one[SPEED_COMMANDS]
@@ -78,7 +78,7 @@ def test_quadrotors_of_two_logs_become_columns_on_one_clock(recorders):
 
 
 def test_logs_of_two_flights_or_without_a_turn_are_refused(recorders):
-    left, right, *_ = recorders
+    left, right, _ = recorders
     t, rates, _ = turning(30.0, 8)
     other = replace(right, streams={**right.streams, RATES: Stream(t, rates)}, source="another")
     with pytest.raises(InputError, match="another: its turn is not that of left"):

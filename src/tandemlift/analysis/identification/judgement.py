@@ -21,7 +21,7 @@ from tandemlift.analysis.identification.identification import Row
 from tandemlift.analysis.identification.prediction import STARTS
 from tandemlift.analysis.identification.sensor_errors import SensorPriors
 from tandemlift.core.types import Array
-from tandemlift.engines.vehicle_unknowns import ALIKE, DEFAULT, Unknowns
+from tandemlift.engines.vehicle_unknowns import DEFAULT, UNLIKE, Unknowns
 
 LAGS = 20  # blocks
 ALIKE, MOST_PAIRS = 0.95, 4  # correlation of the errors of two keys; pairs that are named
@@ -127,7 +127,12 @@ def scale_is_known(unknowns: Unknowns, q: Array, information: Array) -> bool:
         information: of the data on it (P, P).
     """
     kinds = [u.kind for u in unknowns.unknowns]
-    along = np.array([float(u.positive and k.unit in SCALED and not u.weights) for u, k in zip(unknowns.unknowns, kinds, strict=True)])
+    along = np.array(
+        [
+            float(u.positive and k.unit in SCALED and not u.weights)
+            for u, k in zip(unknowns.unknowns, kinds, strict=True)
+        ]
+    )
     drag = np.array([u.start + x if ".drag." in u.key else 0.0 for u, x in zip(unknowns.unknowns, q, strict=True)])
     direction, sd = along + drag, float(np.min(unknowns.sd[along > 0.0], initial=1.0))
     return bool(direction @ information @ direction * sd**2 > 1.0 or sd < 0.01)
@@ -171,11 +176,16 @@ def assumptions_of(search: VehicleSearch) -> list[tuple[str, str]]:
     fixed = [key for key in DEFAULT if key not in {_starred(u.key) for u in unknowns}]
     table = search.parts[0].predictor.mission
     found = [
-        (", ".join(unlike), f"each quadrotor its own, about one that they share: a prior of {ALIKE:.0%} between them"),
+        (", ".join(unlike), f"each quadrotor its own, about one that they share: a prior of {UNLIKE:.0%} between them"),
         (", ".join(own), "each quadrotor its own, without a prior of being alike"),
         (", ".join(fixed), "as in the mission: not estimated"),
         ("rotors of a quadrotor", "share thrust constant, torque per thrust and lags; thrust is k Ω²"),
-        ("actuators.delay", "one for all rotors" + "; its interval has that of unknown stamps" * (max(part.windows.stamp_offset for part in search.parts) > 0.0)),
+        (
+            "actuators.delay",
+            "one for all rotors"
+            + "; its interval has that of unknown stamps"
+            * (max(part.windows.stamp_offset for part in search.parts) > 0.0),
+        ),
         ("vehicle", "rigid, its joints too; drag is linear, and of the whole"),
         ("air", f"steady wind of {list(table.wind.velocity)} m/s" if table.wind.model == "air" else "still"),
         ("readings", "at the instant of their stamps; clocks of motion, joints and accelerometer are estimated"),

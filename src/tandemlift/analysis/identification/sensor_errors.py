@@ -1,9 +1,9 @@
 """The errors of sensors as unknowns beside the vehicle, and the residuals of their samples.
 
 Biases of IMU and joints are constant over a few windows and walk from one group of windows to the next, as the drift of
-the mission's sensors allows. So do the offsets of the clocks of motion measurement and joints against the IMU's, which
-`clocks` finds to about a millisecond only, and that of the accelerometer against the gyroscope's. The axes of each joint's sensor are turned by a small rotation, and the
-motion measurement follows a point near the centre of mass.
+the mission's sensors allows. So do the offsets of the clocks of motion measurement and joints against the gyroscope's,
+which `clocks` finds to about a millisecond only, and that of the accelerometer. The axes of each joint's sensor are
+turned by a small rotation, and the motion measurement follows a point near the centre of mass.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ class SensorPriors:
 
     @property
     def count(self) -> int:
-        """Number of errors that do not change: the point's place, a rotation at each joint, the accelerometer's place."""
+        """Number of errors that do not change: places of point and accelerometer, a rotation at each joint."""
         return 3 + 3 * self.joints + 3 * self.placed
 
     @property

@@ -14,12 +14,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.logs.checks import check_alive, check_log
+from tandemlift.analysis.logs.checks import check_log
 from tandemlift.analysis.logs.corrections import UNITS, Correction, corrected, factor_of, in_words
+from tandemlift.analysis.logs.grid import thinned
 from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, SPEED_COMMANDS, Log, stream_channel
-from tandemlift.analysis.logs.stream_tests import KINDS, LAWS, OF_EACH, SURE, Fit, Laws, thinned
+from tandemlift.analysis.logs.stream_tests import KINDS, LAWS, OF_EACH, SURE, Fit, Laws
 from tandemlift.core.errors import InputError
-from tandemlift.core.types import GRAVITY, Array
+from tandemlift.core.types import Array
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
 
 POSITION, VELOCITY, ATTITUDE = MOTION
@@ -88,7 +89,9 @@ def _of_means(laws: Laws, log: Log) -> Iterator[Finding]:
         angle = math.degrees(math.acos(min(max(up[2] / np.linalg.norm(up), -1.0), 1.0)))
         good = angle < LEANS and 0.85 < np.linalg.norm(up) < 1.15
         axis = int(np.argmax(np.abs(up)))
+        size = float(np.linalg.norm(up))
         found = f"{up[axis]:+.2f} g along {'xyz'[axis]} of the world, {angle:.0f}° off z"
+        found = f"{size:.2f} g: it seems to be without gravity" if size < 0.05 else found
         yield Finding(f"{FORCE}, {ATTITUDE}", "gravity", found, "+1 g along z", _verdict(good))
     if "load" in constants:
         whole = constants["load"].sum(axis=0)
@@ -97,8 +100,10 @@ def _of_means(laws: Laws, log: Log) -> Iterator[Finding]:
         found = f"{whole[2]:+.2f} of the payload's weight along z, {flat:.2f} across"
         yield Finding(JOINTS[0], "weight", found, "1, or 0 after a tare; 0 across", _verdict(good))
     for way, better in laws.frames(log).items():
-        found = f"those of {'body' if way == 'body' else 'a second turn of body'} axes suit the position better: {better:+.0f}"
-        yield Finding(VELOCITY, f"frame of the velocity, if {way}", found, f"below {LIKELIER:g}", _verdict(better < LIKELIER))
+        found = f"along {way} axes it suits the position better by {better:+.0f}"
+        yield Finding(
+            VELOCITY, f"frame of the velocity, if {way}", found, f"below {LIKELIER:g}", _verdict(better < LIKELIER)
+        )
     if "lift" in constants and np.isfinite(constants["lift"]).all():
         ratio = float(constants["lift"][0])
         yield Finding(commands, "hover", f"{ratio:.3g} of the weight", "0.5 to 2", _verdict(0.5 < ratio < 2.0))
@@ -131,7 +136,9 @@ def _of_law(name: str, streams: str, fit: Fit | None) -> Iterator[Finding]:
     angle, sd = math.degrees(float(np.linalg.norm(fit.turn))), math.degrees(fit.turn_sd)
     if kind.turn < math.inf and sd < 0.6 * kind.turn:
         good = angle < kind.turn + SURE * sd
-        yield Finding(streams, f"axes of {test}", f"{axis_and_angle(fit.turn)}", f"within {kind.turn:g}°", _verdict(good))
+        yield Finding(
+            streams, f"axes of {test}", f"{axis_and_angle(fit.turn)}", f"within {kind.turn:g}°", _verdict(good)
+        )
 
 
 def away(laws: Laws, log: Log) -> Array | None:
@@ -169,15 +176,14 @@ def check_streams(log: Log, table: VehicleTable) -> Streams:
     Raises:
         InputError: tests contradict; the message names what, and what to write into the map.
     """
-    check_alive(log)
+    check_log(log)
     _check_spans(log)
-    laws, whole, log = Laws(table), log, thinned(log)
+    laws, log = Laws(table), thinned(log)
     place = away(laws, log)
     laws.at = laws.at if place is None else place
     found = tuple(findings_of(laws, log))
     wrong = [one for one in found if one.verdict == "contradicts"]
     if not wrong:
-        check_log(whole)
         if place is not None:
             at = f"{np.round(place, 2).tolist()} m from the payload's origin"
             found += (Finding(FORCE, "place of the accelerometer", at, f"within {AWAY:g} m", "estimated"),)
@@ -202,8 +208,8 @@ def _check_spans(log: Log) -> None:
             ratio = factor_of(unit) / factor_of(given) * span / max(usual, 1e-12)
             if unit != given and 0.5 < ratio < 2.0 and not 0.05 < span / usual < 20.0:
                 raise InputError(
-                    f"{log.source}: stream {name}: its stamps last {span:.4g} s, those of others {usual:.4g} s. It seems "
-                    f'to be stamped in {unit}: [{name}] time_unit = "{unit}"'
+                    f"{log.source}: stream {name}: its stamps last {span:.4g} s, those of others {usual:.4g} s. "
+                    f'It seems to be stamped in {unit}: [{name}] time_unit = "{unit}"'
                 )
     middle = {name: float(np.mean(log[name].time[[0, -1]])) for name in spans}
     center = float(np.median([*middle.values()]))
@@ -212,7 +218,7 @@ def _check_spans(log: Log) -> None:
         time = log[name].time
         raise InputError(
             f"{log.source}: stream {name}: its stamps are from {time[0]:.6g} to {time[-1]:.6g} s, those of others about "
-            f"{center:.6g} s: they seem to be of another clock: give delay = {middle[name] - center:.4g} or so, and align"
+            f"{center:.6g} s: they seem to be of another clock: give delay = {middle[name] - center:.4g}, and align"
         )
 
 
@@ -292,7 +298,9 @@ def candidates(log: Log, laws: Laws, concerned: Iterable[str]) -> Iterator[Cause
                 yield Cause(_axes(order, signs), (_mapped(name, 3, order, signs),))
     if VELOCITY in concerned and ATTITUDE in log:
         given = log.ways.get(VELOCITY, {}).get("frame", "")
-        yield Cause(f"along {'world' if given else 'body'} axes", (Correction(VELOCITY, frame="world" if given else "body"),))
+        yield Cause(
+            f"along {'world' if given else 'body'} axes", (Correction(VELOCITY, frame="world" if given else "body"),)
+        )
     if {*IMU} & {*concerned}:
         for order, signs in ROTATIONS:
             yield Cause(f"of an IMU {_axes(order, signs)}", tuple(_mapped(name, 3, order, signs) for name in IMU))
@@ -360,7 +368,9 @@ def _attitudes(log: Log, laws: Laws) -> Iterator[Cause]:
                     (ORDERS[0], (1.0, -1.0, -1.0)): "of front, right, down in north, east, down",
                     SAME: "",
                 }.get((axes, signs), _axes(axes, signs))
-                one = Correction(ATTITUDE, moved if moved != (0, 1, 2, 3) else (), () if min(signs) > 0.0 else (1.0, *signs))
+                one = Correction(
+                    ATTITUDE, moved if moved != (0, 1, 2, 3) else (), () if min(signs) > 0.0 else (1.0, *signs)
+                )
                 yield Cause(" and ".join(filter(None, (words, named))), (one,))
         for axis, angle in itertools.product(range(3), (90.0, -90.0, 180.0)):
             turn = tuple(angle * (i == axis) for i in range(3))
@@ -389,7 +399,8 @@ def _attitudes(log: Log, laws: Laws) -> Iterator[Cause]:
             yield Cause(
                 words,
                 tuple(
-                    Correction(name, order, factors) if name == ATTITUDE else Correction(name, (), signs) for name in group
+                    Correction(name, order, factors) if name == ATTITUDE else Correction(name, (), signs)
+                    for name in group
                 ),
             )
 
@@ -427,7 +438,9 @@ def _commands(name: str, width: int) -> Iterator[Cause]:
         yield Cause(f"of quadrotors in the order {', '.join(map(str, order))}", (Correction(name, columns),))
     for only in [None, *(range(width // 4) if width > 4 else ())]:
         for order in itertools.islice(itertools.permutations(range(4)), 1, None):
-            columns = tuple(4 * i + (order[rotor] if only in (None, i) else rotor) for i in range(width // 4) for rotor in range(4))
+            columns = tuple(
+                4 * i + (order[rotor] if only in (None, i) else rotor) for i in range(width // 4) for rotor in range(4)
+            )
             where = "" if only is None else f" of quadrotor {only}"
             yield Cause(f"of rotors{where} in the order {', '.join(map(str, order))}", (Correction(name, columns),))
     yield Cause("of squares of what is expected", (Correction(name, power=0.5),))

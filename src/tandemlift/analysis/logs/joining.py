@@ -71,12 +71,14 @@ def clock_against(first: Log, other: Log) -> SourceClock:
     elif ATTITUDE in other:
         windows = turn_windows(other[ATTITUDE])
     else:
-        raise InputError(f"{other.source}: has neither {RATES} nor {ATTITUDE}, which tell its clock against {first.source}")
+        raise InputError(
+            f"{other.source}: has neither {RATES} nor {ATTITUDE}, which tell its clock against {first.source}"
+        )
     clock = fitted_clock(windows, first[RATES])
     if clock.correlation < TOLD or clock.offset_sigma > UNSURE:
         raise InputError(
-            f"{other.source}: its turn is not that of {first.source} (correlation {clock.correlation:.2f}): one rigid body "
-            "in one flight, with the axes of both along the body's, has one turn; or it hardly moved"
+            f"{other.source}: its turn is not that of {first.source} (correlation {clock.correlation:.2f}): one rigid "
+            "body in one flight, with the axes of both along the body's, has one turn; or it hardly moved"
         )
     return clock
 
@@ -94,7 +96,7 @@ def _rate_windows(rates: Stream) -> Windows:
 
 
 def _beside(streams: Sequence[Stream], *, held: bool) -> Stream:
-    """Columns of several streams side by side where all have some: of held ones at every time that one of them changes."""
+    """Columns of several streams side by side where all have some: of held ones at every time that one changes."""
     begin, end = max(s.time[0] for s in streams), min(s.time[-1] for s in streams)
     times = np.unique(np.concatenate([s.time for s in streams])) if held else streams[0].time
     times = times[(times >= begin) & (times <= end)]

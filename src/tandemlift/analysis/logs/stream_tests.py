@@ -21,14 +21,12 @@ hold in changes within `SLOW` only: a person's push is slower.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field, replace
-from functools import cached_property
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tandemlift.analysis.logs.grid import CELL, SMOOTH, Grid, Truths, quick, smoothed
 from tandemlift.analysis.logs.log import (
     COMMANDS,
     IMU,
@@ -39,7 +37,6 @@ from tandemlift.analysis.logs.log import (
     Log,
     Stream,
     conjugate,
-    quaternion_product,
     rotated,
 )
 from tandemlift.core.types import GRAVITY, Array
@@ -48,12 +45,8 @@ from tandemlift.parts.mechanics.vehicle_table import VehicleTable
 
 POSITION, VELOCITY, ATTITUDE = MOTION
 FORCE, RATES = IMU
-CELL = 0.01  # s of the grid
-SMOOTH = 0.05  # s, half the width of the triangle
 SLOW = 0.8  # s
-LONGEST = 120.0  # s of a log that are looked at
 REACH = 0.4  # s, of lags
-GAP = 0.06  # s: a longer one is left out
 FEWEST = 200  # cells
 CLEAR = 8.0  # times the noise's square: a signal
 PART = 1.0  # s
@@ -61,8 +54,6 @@ SURE = 5.0  # standard deviations
 TOLD = 0.12  # standard deviation of a scale that is known
 
 ACROSS, UPWARD = np.array([1.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0])
-
-Truths = NDArray[np.bool_]
 
 
 class Kind(NamedTuple):
@@ -131,135 +122,6 @@ class Fit(NamedTuple):
     turn_sd: float
 
 
-def smoothed(v: Array, cells: int) -> Array:
-    """A signal (n, …) averaged twice over some cells."""
-    kernel, beside = np.convolve(np.full(cells, 1.0 / cells), np.full(cells, 1.0 / cells)), ((cells - 1, cells - 1), (0, 0))
-    return np.stack([np.convolve(c, kernel, "valid") for c in np.pad(v, beside, "edge").T], axis=1)
-
-
-def quick(v: Array, slow: float) -> Array:
-    """A signal (n, …) less its mean over a time [s] about each cell."""
-    width = min(round(slow / CELL), len(v) - 2) | 1
-    ones = np.convolve(np.ones(len(v)), np.ones(width), "same")
-    return v - np.stack([np.convolve(c, np.ones(width), "same") for c in v.T], axis=1) / ones[:, None]
-
-
-def thinned(log: Log) -> Log:
-    """A log with means of neighbours in place of samples that come faster than two in a cell."""
-    streams = dict[str, Stream]()
-    for name, (time, values) in log.items():
-        many = min(int(0.5 * CELL * log.rate(name) + 0.01), max(len(time) // 8, 1))
-        count = len(time) // max(many, 1) * many
-        if many > 1 and name != ATTITUDE:
-            parts = (v[:count].reshape(-1, many, *v.shape[1:]).mean(axis=1) for v in (time, values))
-            streams[name] = Stream(*parts)
-        else:
-            streams[name] = Stream(time[::many], values[::many]) if many > 1 else Stream(time, values)
-    return replace(log, streams=streams)
-
-
-@dataclass
-class Grid:
-    """The streams of a log on one grid of time.
-
-    Args:
-        log: with two streams or more.
-        known: means and turns that were formed before.
-    """
-
-    log: Log
-    known: dict[tuple[object, ...], tuple[Array, Stream]] = field(default_factory=dict)
-    begin: float = field(init=False)
-    count: int = field(init=False)
-
-    def __post_init__(self) -> None:
-        names = [n for n in (*IMU, *MOTION, *JOINTS, COMMANDS, SPEED_COMMANDS) if n in self.log]
-        begins = [self.log[n].time[0] for n in names]
-        ends = [self.log[n].time[-1] for n in names]
-        self.begin = float(max(begins)) + CELL
-        self.count = max(0, int((min(float(min(ends)), self.begin + LONGEST) - self.begin) / CELL) - 1)
-        rates = [self.log.rate(n) for n in names if n not in (COMMANDS, SPEED_COMMANDS)]
-        self.cells = max(round(SMOOTH / CELL), math.ceil(2.0 / (max(min(rates, default=100.0), 1.0) * CELL)))
-
-    @property
-    def edges(self) -> Array:
-        """The ends of the cells [s] (count + 1)."""
-        return self.begin + CELL * np.arange(self.count + 1)
-
-    def there(self, cells: int, *names: str) -> Truths:
-        """Where no stream of these has a gap within some cells."""
-        good = np.ones(self.count, bool)
-        for name in names:
-            time = self.log[name].time
-            wide = np.diff(time) > max(GAP, 4.0 * float(np.median(np.diff(time))))
-            for a, b in zip(time[:-1][wide], time[1:][wide], strict=True):
-                first, last = (int((t - self.begin) / CELL) for t in (a, b))
-                good[max(0, first - cells) : max(0, last + cells)] = False
-        good[:cells] = good[-cells:] = False
-        return good
-
-    def mean(self, name: str) -> Array:
-        """The means of a stream over the cells (count, width)."""
-        return self._kept("mean", name, self._mean)
-
-    def _kept(self, what: str, name: str, formed: Callable[[str], Array]) -> Array:
-        stream = self.log[name]
-        key = (what, self.begin, self.count, id(stream.time), id(stream.values))
-        if key not in self.known:
-            self.known[key] = formed(name), stream
-        return self.known[key][0]
-
-    def _mean(self, name: str) -> Array:
-        time, v = self.log[name]
-        areas = 0.5 * (v[1:] + v[:-1]) * np.diff(time)[:, None]
-        total = np.vstack([np.zeros(v.shape[1]), np.cumsum(areas, axis=0)])
-        at = np.stack([np.interp(self.edges, time, c) for c in total.T], axis=1)
-        return np.asarray(np.diff(at, axis=0) / CELL)
-
-    def change(self, name: str) -> Array:
-        """The change of a stream per second over the cells (count, width)."""
-        return self._kept("change", name, self._change)
-
-    def _change(self, name: str) -> Array:
-        time, v = self.log[name]
-        at = np.stack([np.interp(self.edges, time, c) for c in v.T], axis=1)
-        return np.asarray(np.diff(at, axis=0) / CELL)
-
-    @cached_property
-    def attitudes(self) -> Array:
-        """The attitude at the ends of the cells (count + 1, 4)."""
-        return self._kept("attitude", ATTITUDE, self._attitude)
-
-    def _attitude(self, name: str) -> Array:
-        time, q = self.log[name]
-        size = np.maximum(np.linalg.norm(q, axis=1, keepdims=True), 1e-12)
-        q = q / size
-        flips = np.cumprod(np.where(np.sum(q[1:] * q[:-1], axis=1) < 0.0, -1.0, 1.0))
-        q = q * np.insert(flips, 0, 1.0)[:, None]
-        at = np.stack([np.interp(self.edges, time, c) for c in q.T], axis=1)
-        return np.asarray(at / np.maximum(np.linalg.norm(at, axis=1, keepdims=True), 1e-12))
-
-    def noise(self, name: str, cells: int, *, derivative: bool = False) -> Array:
-        """The variance that the white noise of a stream's samples leaves after smoothing (3,): of joints, of their sum."""
-        square, per = self._kept("noise", name, self._noise)[:3], float(self._kept("noise", name, self._noise)[3])
-        width, per = cells * CELL, max(per, CELL) if name in MOTION else per  # of these, the ends of cells count
-        return np.asarray(square * per * (2.0 / width**3 if derivative else 2.0 / (3.0 * width)))
-
-    def _noise(self, name: str) -> Array:
-        """Of the white noise of a stream's samples the variances (3), of joints of their sum; the samples' interval."""
-        time, v = self.log[name]
-        each = 1.4826 * np.median(np.abs(np.diff(v, 2, axis=0)), axis=0) / math.sqrt(6.0) if len(v) > 2 else 0.0 * v[0]
-        if name == ATTITUDE:
-            each = np.full(3, 2.0 * math.sqrt(float(np.sum(each**2)) / 3.0))
-        square = np.sum(np.square(each).reshape(-1, 3), axis=0)
-        return np.append(square, np.median(np.diff(time)) if len(time) > 1 else 1.0)
-
-    def turn(self, q: Array) -> Array:
-        """The rates [rad/s] of attitudes at the ends of the cells, body axes."""
-        change = quaternion_product(conjugate(q[:-1]), q[1:])
-        return np.asarray(2.0 * change[:, 1:] * np.sign(change[:, :1]) / CELL)
-
-
 def fitted(y: Array, x: Array, good: Truths, noise: tuple[Array, Array], kind: Kind) -> Fit | None:
     """The fit of y = A x, both (n, 3); None if the grid is too short.
 
@@ -285,7 +147,11 @@ def fitted(y: Array, x: Array, good: Truths, noise: tuple[Array, Array], kind: K
     gram, cross = b.T @ b, b.T @ a
     A = np.linalg.solve(gram + (1e-9 * np.trace(gram) + 1e-300) * np.eye(3), cross).T
     power_y, power_x = np.mean(a * a, axis=0), np.mean(b * b, axis=0)
-    scale = _scales(a, b, noise[1]) if kind.pushed else np.diag(cross) / n / np.maximum(power_x - noise[1], 0.3 * power_x + 1e-300)
+    scale = (
+        _scales(a, b, noise[1])
+        if kind.pushed
+        else np.diag(cross) / n / np.maximum(power_x - noise[1], 0.3 * power_x + 1e-300)
+    )
     rest = np.mean((a - b * scale) ** 2, axis=0)
     scale_sd = np.sqrt(rest / np.maximum(power_x, 1e-300) / own)
     off = _beyond(scale, scale_sd, kind)
@@ -314,7 +180,9 @@ def _scales(a: Array, b: Array, noise: Array) -> Array:
     """The slopes (3,) of a by b that half of the parts of `PART` are below, by weight: a push is in few of them."""
     parts = max(1, round(len(a) * CELL / PART))
     power = np.array([np.mean(p * p, axis=0) for p in np.array_split(b, parts)])
-    cross = np.array([np.mean(p * q, axis=0) for p, q in zip(np.array_split(a, parts), np.array_split(b, parts), strict=True)])
+    cross = np.array(
+        [np.mean(p * q, axis=0) for p, q in zip(np.array_split(a, parts), np.array_split(b, parts), strict=True)]
+    )
     power = np.maximum(power - noise, 0.3 * power + 1e-300)
     found = []
     for c, w in zip(cross.T, power.T, strict=True):
@@ -374,7 +242,7 @@ LAWS = {
     "thrust": (JOINTS[0], FORCE, RATES, COMMANDS),
     "torque": (JOINTS[1], JOINTS[0], RATES, COMMANDS),
 }
-"""The streams of each law: those of y, then those of x. The last three are of each quadrotor, with its number behind."""
+"""The streams of each law: those of y, then those of x. The last three are of each quadrotor, its number behind."""
 OF_EACH = ("side", "thrust", "torque")
 
 
@@ -391,7 +259,9 @@ class Laws:
         self.joints = np.array([q.joint_position for q in table.quadrotors])
         self.at = np.zeros(3)  # m from the payload's origin: the accelerometer
         count = len(table.quadrotors)
-        self.names = [name for law in LAWS for name in ([f"{law} {i}" for i in range(count)] if law in OF_EACH else [law])]
+        self.names = [
+            name for law in LAWS for name in ([f"{law} {i}" for i in range(count)] if law in OF_EACH else [law])
+        ]
         self._means = dict[tuple[object, ...], tuple[Array, Stream]]()
         self._known = dict[tuple[object, ...], tuple[Fit | None, list[Stream]]]()  # streams are kept: ids stay theirs
 
@@ -406,7 +276,10 @@ class Laws:
             if all(stream in log for stream in own):
                 key = (name, grid.begin, grid.count, *(x for stream in own for x in map(id, log[stream])))
                 if key not in self._known:
-                    self._known[key] = getattr(self, f"_{law}")(grid, commands, *map(int, number)), [log[stream] for stream in own]
+                    self._known[key] = (
+                        getattr(self, f"_{law}")(grid, commands, *map(int, number)),
+                        [log[stream] for stream in own],
+                    )
                 yield name, self._known[key][0]
 
     def _turn(self, g: Grid, _: str) -> Fit | None:
@@ -458,7 +331,10 @@ class Laws:
         J = self.table.payload.moments
         x = smoothed(np.gradient(g.mean(RATES), CELL, axis=0), c) * J
         arm = np.sum(self.joints**2) - np.sum(self.joints**2, axis=0)
-        noise = g.noise(JOINTS[1], c) + g.noise(JOINTS[0], c) / len(self.joints) * arm, g.noise(RATES, c, derivative=True) * np.square(J)
+        noise = (
+            g.noise(JOINTS[1], c) + g.noise(JOINTS[0], c) / len(self.joints) * arm,
+            g.noise(RATES, c, derivative=True) * np.square(J),
+        )
         return fitted(y, x, g.there(c, RATES, *JOINTS), noise, KINDS["lever"])
 
     def _thrusts(self, g: Grid, commands: str) -> Array:
@@ -508,7 +384,13 @@ class Laws:
     def _side(self, g: Grid, _: str, i: int) -> Fit | None:
         c, (force, noise) = g.cells, self._inertial(g, i)
         y = smoothed(g.mean(JOINTS[0])[:, 3 * i : 3 * i + 3] * ACROSS, c)
-        return fitted(y, smoothed(-force * ACROSS, c), g.there(c, JOINTS[0], FORCE, RATES), (g.noise(JOINTS[0], c), noise), KINDS["side"])
+        return fitted(
+            y,
+            smoothed(-force * ACROSS, c),
+            g.there(c, JOINTS[0], FORCE, RATES),
+            (g.noise(JOINTS[0], c), noise),
+            KINDS["side"],
+        )
 
     def _thrust(self, g: Grid, commands: str, i: int) -> Fit | None:
         c, (force, noise) = g.cells, self._inertial(g, i)
@@ -538,7 +420,7 @@ class Laws:
         good = g.there(c, FORCE, RATES, VELOCITY, ATTITUDE)
         if good.sum() < FEWEST:
             return None
-        seen = smoothed(g.mean(FORCE) - rotated(back, g.change(VELOCITY) + [0.0, 0.0, GRAVITY]), c)
+        seen = smoothed(g.mean(FORCE) - rotated(back, g.change(VELOCITY) + GRAVITY * UPWARD), c)
         w = g.mean(RATES)
         turning = np.gradient(w, CELL, axis=0)
         columns = [smoothed(np.cross(turning, e) + np.cross(w, np.cross(w, e)), c) for e in np.eye(3)]

@@ -213,7 +213,9 @@ def _part(place: str, way: Way, tables: LogTables, topic: str) -> Stream:
             raise InputError(f"{place}: {unknown('column', name, tables.columns(topic))}") from None
 
     stamps = (way.time,) if isinstance(way.time, str) else way.time
-    time = column(next((name for name in stamps if name in tables.columns(topic)), stamps[0])) * factor_of(way.time_unit)
+    time = column(next((name for name in stamps if name in tables.columns(topic)), stamps[0])) * factor_of(
+        way.time_unit
+    )
     values = [column(name) for name in way.columns]
     rows = np.hstack([v.reshape(len(time), -1) for v in values])
     some = np.isfinite(rows).any(axis=1)

@@ -104,7 +104,9 @@ def _residuals(found: Mapping[str, Any]) -> PageTable:
 
 def _streams(tests: Sequence[Mapping[str, str]]) -> PageTable:
     titles = ("Streams", "Test", "Found", "Expected", "Verdict")
-    lines: list[list[Cell]] = [[code(t["stream"]), t["test"], t["found"], t["expected"] or DASH, t["verdict"]] for t in tests]
+    lines: list[list[Cell]] = [
+        [code(t["stream"]), t["test"], t["found"], t["expected"] or DASH, t["verdict"]] for t in tests
+    ]
     return PageTable("compared keys", titles, lines)
 
 
