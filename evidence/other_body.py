@@ -3,8 +3,8 @@
 All vehicles of a batch have as many quadrotors. Each flies itself: a proportional-derivative pilot hovers at 2 m with
 sines in thrust and moments, and commands rotor speeds every 4 ms, which take effect after the vehicle's delay. A
 rotor's speed then follows with its own lag up or down, in closed form. `solve_ivp` (RK45, rtol 1e-6, atol 1e-8)
-integrates the bodies from one command to the next. Sensors read at the instant of their stamp: the accelerometer at the payload's
-origin, joints by Newton's and Euler's laws of each quadrotor alone, each with white noise and a constant bias.
+integrates the bodies from one command to the next. Sensors read at the instant of their stamp: the accelerometer at the
+payload's origin, joints by Newton's and Euler's laws of each quadrotor alone, each with noise and a bias.
 """
 
 from __future__ import annotations
@@ -148,6 +148,10 @@ def flown(missions: list[Mission], seconds: float, seed: int, push: bool = False
     hover = np.sqrt(np.maximum(inverse[:, :, 0] * (whole.mass * GRAVITY)[:, None], 1e-3) / k)
     omega, current = hover.copy(), hover.copy()
     queue = [(-np.ones(V), hover)]
+
+    def relaxed(x: np.ndarray, to: np.ndarray, time: np.ndarray) -> np.ndarray:
+        return to + (x - to) * np.exp(-np.maximum(time, 0.0)[:, None] / np.where(to > x, up, down))
+
     out: dict[str, list[np.ndarray]] = {name: [] for name in ("s", "u", "thrust")}
     times, commands = [], []
     steps = round(seconds / PERIOD)
@@ -183,9 +187,6 @@ def flown(missions: list[Mission], seconds: float, seed: int, push: bool = False
         before, begin = current.copy(), omega.copy()
 
         def speeds(at: float, before=before, begin=begin, after=after, switch=switch, t=t) -> np.ndarray:
-            def relaxed(x: np.ndarray, to: np.ndarray, time: np.ndarray) -> np.ndarray:
-                return to + (x - to) * np.exp(-np.maximum(time, 0.0)[:, None] / np.where(to > x, up, down))
-
             first = relaxed(begin, before, np.minimum(at, switch) - t)
             return np.where(
                 (at > switch)[:, None], relaxed(first, after, np.where(np.isfinite(switch), at - switch, 0.0)), first

@@ -179,9 +179,14 @@ def check_streams(log: Log, table: VehicleTable) -> Streams:
     check_log(log)
     _check_spans(log)
     laws, log = Laws(table), thinned(log)
-    place = away(laws, log)
-    laws.at = laws.at if place is None else place
-    found = tuple(findings_of(laws, log))
+    found, place = tuple(findings_of(laws, log)), away(laws, log)
+    if place is not None:
+        laws.at = place
+        there = tuple(findings_of(laws, log))
+        if any(one.verdict == "contradicts" for one in there):
+            laws.at = 0.0 * place  # it is something else
+        else:
+            found = there
     wrong = [one for one in found if one.verdict == "contradicts"]
     if not wrong:
         if place is not None:
@@ -217,7 +222,7 @@ def _check_spans(log: Log) -> None:
     if log.duration < 0.3 * min(usual, *spans.values()):
         time = log[name].time
         raise InputError(
-            f"{log.source}: stream {name}: its stamps are from {time[0]:.6g} to {time[-1]:.6g} s, those of others about "
+            f"{log.source}: stream {name}: its stamps are from {time[0]:.6g} to {time[-1]:.6g} s, of others about "
             f"{center:.6g} s: they seem to be of another clock: give delay = {middle[name] - center:.4g}, and align"
         )
 

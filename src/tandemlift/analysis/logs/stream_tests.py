@@ -102,7 +102,6 @@ class Fit(NamedTuple):
         scale: A's diagonal, corrected for the noise of x (3,).
         scale_sd: its standard deviations (3,).
         off: whether the scale is beyond what is allowed, in every third of a log that may be pushed (3,).
-        matrix: A (3, 3).
         left: the part of the square of y that x leaves, with scales that are allowed (3,).
         turn: the rotation vector [rad] by which x must be turned to agree with y (3,).
         turn_sd: the largest standard deviation of its components [rad].
@@ -116,7 +115,6 @@ class Fit(NamedTuple):
     scale: Array
     scale_sd: Array
     off: Truths
-    matrix: Array
     left: Array
     turn: Array
     turn_sd: float
@@ -167,7 +165,7 @@ def fitted(y: Array, x: Array, good: Truths, noise: tuple[Array, Array], kind: K
     whole = np.mean((a - b @ A.T) ** 2, axis=0)
     lag_sd = 1.0 / math.sqrt(max(float(np.sum(slope / np.maximum(whole, 1e-300))) * own, 1e-300))
     turn, turn_sd = _turn_of(a, b, whole, own)
-    return Fit(lag, lag_sd, alike, told, power_y > CLEAR * noise[0], scale, scale_sd, off, A, left, turn, turn_sd)
+    return Fit(lag, lag_sd, alike, told, power_y > CLEAR * noise[0], scale, scale_sd, off, left, turn, turn_sd)
 
 
 def _beyond(scale: Array, sd: Array, kind: Kind) -> Truths:
@@ -274,7 +272,7 @@ class Laws:
             streams = LAWS[law]
             own = [commands if stream == COMMANDS else stream for stream in streams]
             if all(stream in log for stream in own):
-                key = (name, grid.begin, grid.count, *(x for stream in own for x in map(id, log[stream])))
+                key = (name, *self.at, grid.begin, grid.count, *(x for stream in own for x in map(id, log[stream])))
                 if key not in self._known:
                     self._known[key] = (
                         getattr(self, f"_{law}")(grid, commands, *map(int, number)),
@@ -309,7 +307,7 @@ class Laws:
 
     def _speed(self, g: Grid, _: str) -> Fit | None:
         c = 4 * g.cells
-        y, x = smoothed(g.change(VELOCITY), c), smoothed(rotated(g.attitudes[:-1], g.mean(FORCE)), c)
+        y, x = smoothed(g.change(VELOCITY), c), smoothed(rotated(g.attitudes[:-1], self._felt(g)), c)
         tilt = g.noise(ATTITUDE, c) * GRAVITY**2 * [1.0, 1.0, 0.0]
         noise = g.noise(VELOCITY, c, derivative=True), g.noise(FORCE, c) + tilt
         return fitted(y, x, g.there(c, VELOCITY, FORCE, ATTITUDE), noise, KINDS["speed"])
@@ -320,7 +318,7 @@ class Laws:
         if {PUSH[0], ATTITUDE} <= {*g.log}:
             whole = whole + rotated(conjugate(g.attitudes[:-1]), g.mean(PUSH[0]))
         y = smoothed(whole, c)
-        x = smoothed(g.mean(FORCE), c) * self.table.payload.mass
+        x = smoothed(self._felt(g), c) * self.table.payload.mass
         noise = g.noise(JOINTS[0], c), g.noise(FORCE, c) * self.table.payload.mass**2
         return fitted(y, x, g.there(c, JOINTS[0], FORCE), noise, KINDS["load"])
 
@@ -340,6 +338,14 @@ class Laws:
     def _thrusts(self, g: Grid, commands: str) -> Array:
         u = g.mean(commands)
         return u if commands == COMMANDS else u * u * self.thrust_constants
+
+    def _felt(self, g: Grid) -> Array:
+        """The specific force at the payload's origin."""
+        if not self.at.any():
+            return g.mean(FORCE)
+        w = g.mean(RATES)
+        turning = np.gradient(w, CELL, axis=0)
+        return g.mean(FORCE) - np.cross(turning, self.at) - np.cross(w, np.cross(w, self.at))
 
     def _wrench(self, g: Grid, commands: str) -> Array:
         return np.asarray(self._thrusts(g, commands) @ self.vehicle.effect.T)
@@ -362,7 +368,7 @@ class Laws:
     def _lift(self, g: Grid, commands: str) -> Fit | None:
         c, wrench = g.cells, self._wrench(g, commands)
         none = np.zeros((g.count, 2))
-        y = np.hstack([none, smoothed(g.mean(FORCE), c)[:, 2:]])
+        y = np.hstack([none, smoothed(self._felt(g), c)[:, 2:]])
         x = np.hstack([none, smoothed(wrench[:, :1] / self.vehicle.mass, c)])
         noise = g.noise(FORCE, c), np.zeros(3)
         return fitted(y, x, g.there(c, FORCE, commands) & self._flies(g, wrench[:, 0]), noise, KINDS["lift"])
@@ -446,6 +452,7 @@ class Laws:
         if {FORCE, commands} <= {*log}:
             lift = self._wrench(g, commands)[:, 0]
             flies = self._flies(g, lift)
-            felt = self.vehicle.mass * GRAVITY
-            found["lift"] = np.array([np.mean(lift[flies]) / felt if flies.sum() > FEWEST else np.nan])
+            ratio = float(np.mean(lift[flies])) / (self.vehicle.mass * GRAVITY) if flies.sum() > FEWEST else np.nan
+            stands = ratio < 0.5 and bool(self._clear(g).all())
+            found["lift"] = np.array([np.nan if stands else ratio])
         return found
