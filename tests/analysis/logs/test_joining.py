@@ -19,7 +19,7 @@ def turning(seconds, seed):
     chance, t = np.random.default_rng(seed), np.arange(0.0, seconds, 0.002)
     f, phase = chance.uniform(0.2, 3.0, (3, 6)), chance.uniform(0.0, 6.0, (3, 6))
     rates = 0.1 * np.sum(np.sin(2.0 * np.pi * f * t[:, None, None] + phase), axis=2)
-    steps = Rotation.from_rotvec(0.002 * rates)
+    steps = Rotation.from_rotvec(0.001 * (rates + np.roll(rates, -1, axis=0)))  # by the trapezoidal rule
     own, q = Rotation.identity(), []
     for step in steps:
         q.append(np.roll(own.as_quat(), 1))
