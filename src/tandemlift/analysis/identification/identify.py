@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -124,7 +125,8 @@ def _keys(mission: Mission, parameters: Sequence[str] | None) -> list[str]:
 
 def _check_starts(unknowns: Unknowns, name: str) -> None:
     """Refuse a number that is estimated by its logarithm and starts from 0."""
-    zero = [u.name for u in unknowns.unknowns if u.positive and u.start == 0.0 and u.kind.field not in INERTIAS]
+    shared = [u for u in unknowns.unknowns if not u.weights]
+    zero = [u.name for u in shared if u.positive and u.start == 0.0 and u.kind.field not in INERTIAS]
     if zero:
         raise InputError(
             f"mission {name}: {', '.join(zero)} = 0: must start above 0 to be estimated; set about what it may be, as "
@@ -314,13 +316,20 @@ def _example(search: VehicleSearch) -> dict[str, Any]:
 
 
 def reference_rows(mission: MissionLike) -> dict[str, float]:
-    """The numbers of a mission by the keys of `Identification` rows, to compare estimates with."""
+    """The numbers of a mission by the keys of `Identification` rows, to compare estimates with.
+
+    A key with an asterisk has the mean of all quadrotors, as `Identification` has it.
+    """
     mission = mission_of(mission)
     unknowns = unknowns_of(mission.vehicle, mission.actuators.delay)
     at = np.zeros(len(unknowns))
     every = _values(unknowns, at) | whole_vehicle(mission.vehicle, unknowns.start.vehicle)
-    return {
+    found = {
         f"{key}.{AXES[i]}" if len(values) > 1 else key: float(x)
         for key, (values, _) in every.items()
         for i, x in enumerate(values)
     }
+    of_all = dict[str, list[float]]()
+    for key, x in found.items():
+        of_all.setdefault(re.sub(r"quadrotors\.\d+", "quadrotors.*", key), []).append(x)
+    return found | {key: float(np.mean(xs)) for key, xs in of_all.items() if key not in found}
