@@ -116,6 +116,20 @@ def test_behind_the_last_window_there_is_a_block_for_its_end_and_one_for_a_late_
     assert w.first[-1] + w.length + 2 * w.block < w.count
 
 
+def test_samples_that_a_table_drew_between_others_are_left_out_and_smooth_ones_are_not():
+    log = hovering(9.4)
+    time, speeds = log[SPEED_COMMANDS]
+    own = Stream(time[::9], speeds[::9] + RNG.normal(size=(len(time[::9]), 8)))
+    drawn = np.array([np.interp(time, own.time, column) for column in own.values.T]).T
+    w = windows_of(Log({**log, SPEED_COMMANDS: Stream(time, drawn)}, "log"), iris())
+    assert w.commands.time[: len(own.time)] == pytest.approx(own.time)
+    assert len(w.commands.time) < len(own.time) + 9  # held behind the last one
+    assert any("rotor_speed_commands (89%) lie on straight lines" in note for note in w.notes)
+    smooth = windows_of(log, iris())
+    assert len(smooth.commands.time) == len(time)
+    assert not any("straight lines" in note for note in smooth.notes)
+
+
 def test_a_window_flies_where_rotors_carry_the_weight_clear_of_where_it_rested():
     mission = iris()
     vehicle, clear = mission.vehicle, _clear(mission.vehicle)

@@ -199,13 +199,20 @@ def _new(_: Array, values: Array) -> Truths:
 
 
 def _bends(time: Array, values: Array) -> Truths:
-    """Which samples are not on the straight line between their neighbours, and not equal to both."""
+    """Which samples are not on the straight line between their neighbours, and not equal to both.
+
+    All of them, if those on lines are not far nearer to them than the others: a smooth motion has no bends.
+    """
+    every = np.ones(len(time), bool)
     if len(time) < 3:
-        return np.ones(len(time), bool)
+        return every
     part = ((time[1:-1] - time[:-2]) / (time[2:] - time[:-2]))[:, None]
     off = np.abs(values[1:-1] - values[:-2] - part * (values[2:] - values[:-2]))
     step = np.abs(values[2:] - values[:-2])
     straight = np.all(off <= STRAIGHT * step, axis=1) & np.any(step > 0.0, axis=1)
+    size = np.sum(off / np.maximum(np.ptp(values, axis=0), 1e-300), axis=1)
+    if straight.all() or not straight.any() or np.median(size[straight]) > STRAIGHT * np.median(size[~straight]):
+        return every
     return np.concatenate([[True], ~straight, [True]])
 
 
