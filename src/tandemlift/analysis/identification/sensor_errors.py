@@ -95,7 +95,8 @@ def sensor_priors(
             bias += [max(getattr(own, f"{prefix}bias"), least)] * width
             walk += [max(getattr(own, f"{prefix}drift"), drift)] * width
     clocks = {name: len(bias) + i for i, (names, *_) in enumerate(CLOCKS.values()) for name in names}
-    bias, walk = ([*own, *(clock[i] for clock in CLOCKS.values())] for i, own in ((1, bias), (2, walk)))
+    bias += [sd for _, sd, _ in CLOCKS.values()]
+    walk += [sd for _, _, sd in CLOCKS.values()]
     return SensorPriors(places, clocks, np.array(bias), np.array(walk), joints if JOINTS[0] in streams else 0, place)
 
 

@@ -167,8 +167,8 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
             f"{usable.sum()} windows; {FEWEST} are needed"
         )
     lowest = float(log[MOTION[0]].values[:, 2].min())
-    known = {"stamp_offset": offset, "tests": streams.table, "place": streams.place}
-    return replace(cut.chosen(usable), floor=_floor(mission, rested, lowest), notes=notes, **known)
+    cut = replace(cut.chosen(usable), floor=_floor(mission, rested, lowest), notes=notes)
+    return replace(cut, stamp_offset=offset, tests=streams.table, place=streams.place)
 
 
 def _without_held(log: Log) -> tuple[Log, tuple[str, ...]]:

@@ -87,7 +87,7 @@ def _of_means(laws: Laws, log: Log) -> Iterator[Finding]:
     if "up" in constants:
         up = constants["up"]
         angle = math.degrees(math.acos(min(max(up[2] / np.linalg.norm(up), -1.0), 1.0)))
-        good = angle < LEANS and 0.85 < np.linalg.norm(up) < 1.15
+        good = angle < LEANS and 0.85 < float(np.linalg.norm(up)) < 1.15
         axis = int(np.argmax(np.abs(up)))
         size = float(np.linalg.norm(up))
         found = f"{up[axis]:+.2f} g along {'xyz'[axis]} of the world, {angle:.0f}° off z"
@@ -96,7 +96,7 @@ def _of_means(laws: Laws, log: Log) -> Iterator[Finding]:
     if "load" in constants:
         whole = constants["load"].sum(axis=0)
         flat = float(np.linalg.norm(whole[:2]))
-        good = -0.5 < whole[2] < 2.5 and flat < 0.8
+        good = -0.5 < float(whole[2]) < 2.5 and flat < 0.8
         found = f"{whole[2]:+.2f} of the payload's weight along z, {flat:.2f} across"
         yield Finding(JOINTS[0], "weight", found, "1, or 0 after a tare; 0 across", _verdict(good))
     for way, better in laws.frames(log).items():

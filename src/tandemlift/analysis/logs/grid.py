@@ -88,7 +88,7 @@ class Grid:
     @property
     def edges(self) -> Array:
         """The ends of the cells [s] (count + 1)."""
-        return self.begin + CELL * np.arange(self.count + 1)
+        return np.asarray(self.begin + CELL * np.arange(self.count + 1), dtype=float)
 
     def there(self, cells: int, *names: str) -> Truths:
         """Where no stream of these has a gap within some cells."""

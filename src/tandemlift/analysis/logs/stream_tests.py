@@ -215,7 +215,7 @@ def rotation_vector(R: Array) -> Array:
 def _lag_of(y: Array, x: Array) -> tuple[float, float]:
     """(The lag [s] of y against x at which x explains most of y, whatever the axes; the root of that part)."""
     reach = min(round(REACH / CELL), len(y) // 3)
-    places, n = np.arange(-reach, reach + 1), len(y)
+    places, n = range(-reach, reach + 1), len(y)
     cross = np.array([y[max(k, 0) : n + min(k, 0)].T @ x[max(-k, 0) : n - max(k, 0)] for k in places])
     gram = x.T @ x
     explained = np.linalg.solve(gram + (1e-6 * np.trace(gram) + 1e-300) * np.eye(3), cross.swapaxes(1, 2))
