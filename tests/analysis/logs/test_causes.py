@@ -8,9 +8,9 @@ from mistaken_maps import pasted
 
 import tandemlift as tl
 from tandemlift.analysis.logs.causes import check_streams
-from tandemlift.analysis.logs.corrections import Correction, corrected, turned_by
+from tandemlift.analysis.logs.corrections import MapCorrection, corrected, turned_by
 from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, SPEED_COMMANDS, Stream, log_of, quaternion_product
-from tandemlift.analysis.logs.stream_tests import Laws
+from tandemlift.analysis.logs.stream_tests import VehicleLaws
 from tandemlift.core.errors import InputError
 
 pytestmark = pytest.mark.filterwarnings("ignore::tandemlift.FlightWarning")
@@ -153,7 +153,7 @@ def test_a_mistake_is_named_and_what_the_message_says_to_write_mends_it(mistake,
     for name, way in keys.items():
         order = tuple(map(int, way.pop("columns")))
         scale = np.broadcast_to(np.array(way.pop("scale", 1.0), dtype=float), (widths[name],))
-        one = Correction(name, order, tuple(scale.tolist()), **way)
+        one = MapCorrection(name, order, tuple(scale.tolist()), **way)
         mended = corrected(mended, [one]) if way or order != (*range(widths[name]),) or np.any(scale != 1) else mended
     check_streams(mended, vehicle)
     for name in log:
@@ -198,7 +198,7 @@ def test_an_accelerometer_on_a_quadrotor_is_placed_by_the_motion(log, vehicle):
 
 def test_the_laws_of_a_vehicle_are_those_of_the_flight_that_it_made(log, vehicle):
     """Scales are 1, but for rotors' lags; lags are those of rotors and the delay of commands."""
-    fits = dict(Laws(vehicle).fits(log))
+    fits = dict(VehicleLaws(vehicle).fits(log))
     for name in ("turn", "load"):
         told = fits[name].told
         assert told.any()

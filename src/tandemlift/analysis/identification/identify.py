@@ -95,19 +95,32 @@ def identify(
     place = next((w.place for w in cut if w.place is not None), None)
     priors = sensor_priors(mission.sensors, len(mission.vehicle.quadrotors), streams, place)
     search = VehicleSearch([Predictor(fitted, unknowns, mission) for fitted, _ in parts], unknowns, priors)
+    found = _searched(search, [last for _, last in parts if last is not None], other, progress)
+    return replace(found, details=_finite({**found.details, "seconds": time.perf_counter() - began}))
+
+
+def _searched(
+    search: VehicleSearch, held_back: list[FlightWindows], other: list[FlightWindows], progress: Progress | None
+) -> Identification:
+    """The end of a search, judged by the windows that were held back and those of another flight.
+
+    Raises:
+        InputError: no such vehicle explains the log.
+    """
+    predictor = search.parts[0].predictor
+    mission, source = predictor.mission, predictor.windows.source
     try:
         with progress_or_own(f"{mission.mission.name}, identified", progress, "steps") as shown:
             equations, normal = search.run(shown)
-        _check_structure(search, cut[0].source)
-        found = _judged(search, equations, normal, [last for _, last in parts if last is not None], mission)
+        _check_structure(search, source)
+        found = _judged(search, equations, normal, held_back, mission)
         vehicle = Unknowns(driven_numbers(found.mission.vehicle, found.mission.actuators.delay), ())
-        predicted = _predicted(other, vehicle, search, None)
+        found.details.update(predicted=_predicted(other, vehicle, search, None))
     except (np.linalg.LinAlgError, ArithmeticError):
-        raise _no_such_vehicle(search, cut[0].source, "the search leaves all numbers that a vehicle can have") from None
-    found.details.update(predicted=predicted, seconds=time.perf_counter() - began)
+        raise _no_such_vehicle(search, source, "the search leaves all numbers that a vehicle can have") from None
     if not all(np.isfinite([row.value, row.low, row.high]).all() for row in (*found.rows, *found.whole)):
-        raise _no_such_vehicle(search, cut[0].source, "some numbers of the vehicle are not finite")
-    return replace(found, details=_finite(found.details))
+        raise _no_such_vehicle(search, source, "some numbers of the vehicle are not finite")
+    return found
 
 
 def _keys(mission: Mission, parameters: Sequence[str] | None) -> list[str]:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.analysis.logs import log as logs
-from tandemlift.analysis.logs.causes import Finding, check_streams
+from tandemlift.analysis.logs.causes import StreamTest, check_streams
 from tandemlift.analysis.logs.clocks import GAP
 from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, PUSH, SPEED_COMMANDS, Log, Stream
 from tandemlift.core.errors import InputError
@@ -88,7 +88,7 @@ class FlightWindows:
     floor: float | None = None
     notes: tuple[str, ...] = ()
     stamp_offset: float = 0.0
-    tests: tuple[Finding, ...] = ()
+    tests: tuple[StreamTest, ...] = ()
     place: Array | None = None
 
     def times(self) -> Array:

@@ -15,10 +15,10 @@ from typing import NamedTuple
 import numpy as np
 
 from tandemlift.analysis.logs.checks import check_log
-from tandemlift.analysis.logs.corrections import UNITS, Correction, corrected, factor_of, in_words
+from tandemlift.analysis.logs.corrections import UNITS, MapCorrection, corrected, factor_of, in_words
 from tandemlift.analysis.logs.grid import thinned
 from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, SPEED_COMMANDS, Log, stream_channel
-from tandemlift.analysis.logs.stream_tests import KINDS, LAWS, OF_EACH, SURE, Fit, Laws
+from tandemlift.analysis.logs.stream_tests import KINDS, LAWS, OF_EACH, SURE, Fit, VehicleLaws
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
@@ -48,7 +48,7 @@ MEANINGS = {
 }
 
 
-class Finding(NamedTuple):
+class StreamTest(NamedTuple):
     """A line of the table of tests: what was found of streams, beside what is expected."""
 
     stream: str
@@ -62,10 +62,10 @@ class Cause(NamedTuple):
     """A mistake of a map: what it is, and what undoes it."""
 
     words: str
-    corrections: tuple[Correction, ...]
+    corrections: tuple[MapCorrection, ...]
 
 
-def findings_of(laws: Laws, log: Log, first: Sequence[str] = ()) -> Iterator[Finding]:
+def findings_of(laws: VehicleLaws, log: Log, first: Sequence[str] = ()) -> Iterator[StreamTest]:
     """The table of all tests of a log, those of some laws first."""
     for names in (first, [name for name in laws.names if name not in first]):
         for name, fit in laws.fits(log, names):
@@ -80,7 +80,7 @@ def _streams(log: Log, law: str) -> list[str]:
     return [commands if stream == COMMANDS else stream for stream in LAWS[law.split()[0]]]
 
 
-def _of_means(laws: Laws, log: Log) -> Iterator[Finding]:
+def _of_means(laws: VehicleLaws, log: Log) -> Iterator[StreamTest]:
     """What gravity tells of means."""
     commands = SPEED_COMMANDS if SPEED_COMMANDS in log else COMMANDS
     constants = laws.constants(log)
@@ -92,56 +92,56 @@ def _of_means(laws: Laws, log: Log) -> Iterator[Finding]:
         size = float(np.linalg.norm(up))
         found = f"{up[axis]:+.2f} g along {'xyz'[axis]} of the world, {angle:.0f}° off z"
         found = f"{size:.2f} g: it seems to be without gravity" if size < 0.05 else found
-        yield Finding(f"{FORCE}, {ATTITUDE}", "gravity", found, "+1 g along z", _verdict(good))
+        yield StreamTest(f"{FORCE}, {ATTITUDE}", "gravity", found, "+1 g along z", _verdict(good))
     if "load" in constants:
         whole = constants["load"].sum(axis=0)
         flat = float(np.linalg.norm(whole[:2]))
         good = -0.5 < float(whole[2]) < 2.5 and flat < 0.8
         found = f"{whole[2]:+.2f} of the payload's weight along z, {flat:.2f} across"
-        yield Finding(JOINTS[0], "weight", found, "1, or 0 after a tare; 0 across", _verdict(good))
+        yield StreamTest(JOINTS[0], "weight", found, "1, or 0 after a tare; 0 across", _verdict(good))
     for way, better in laws.frames(log).items():
         found = f"along {way} axes it suits the position better by {better:+.0f}"
-        yield Finding(
+        yield StreamTest(
             VELOCITY, f"frame of the velocity, if {way}", found, f"below {LIKELIER:g}", _verdict(better < LIKELIER)
         )
     if "lift" in constants and np.isfinite(constants["lift"]).all():
         ratio = float(constants["lift"][0])
-        yield Finding(commands, "hover", f"{ratio:.3g} of the weight", "0.5 to 2", _verdict(0.5 < ratio < 2.0))
+        yield StreamTest(commands, "hover", f"{ratio:.3g} of the weight", "0.5 to 2", _verdict(0.5 < ratio < 2.0))
 
 
 def _verdict(good: bool) -> str:
     return "agrees" if good else "contradicts"
 
 
-def _of_law(name: str, streams: str, fit: Fit | None) -> Iterator[Finding]:
+def _of_law(name: str, streams: str, fit: Fit | None) -> Iterator[StreamTest]:
     law, *number = name.split()
     kind, test = KINDS[law], f"{MEANINGS[law]}{f', quadrotor {number[0]}' if number else ''}"
     low, high = kind.scales
     if fit is None or not fit.told.any():
         exact = law in ("turn", "path")
         if fit is not None and exact and np.any(fit.moves & (fit.left > 0.7)):
-            yield Finding(streams, test, "nothing in common", "equal", "contradicts")
+            yield StreamTest(streams, test, "nothing in common", "equal", "contradicts")
         else:
-            yield Finding(streams, test, "hardly moved", "", "not told")
+            yield StreamTest(streams, test, "hardly moved", "", "not told")
         return
     off = [i for i in range(3) if fit.told[i] and fit.off[i]]
     apart = [i for i in range(3) if law in ("turn", "path") and fit.moves[i] and fit.left[i] > 0.8]
     shown = ", ".join(f"{'xyz'[i]} {fit.scale[i]:.2f}" for i in range(3) if fit.told[i] or i in apart)
-    yield Finding(streams, test, f"scale {shown}", f"{low:g} to {high:g}", _verdict(not off and not apart))
+    yield StreamTest(streams, test, f"scale {shown}", f"{low:g} to {high:g}", _verdict(not off and not apart))
     least, most = kind.lags
     if fit.alike > ALIKE and not off:
         good = least - SURE * fit.lag_sd < fit.lag < most + SURE * fit.lag_sd
         found = f"late by {1e3 * fit.lag:.0f} ms"
-        yield Finding(streams, f"lag of {test}", found, f"{1e3 * least:.0f} to {1e3 * most:.0f} ms", _verdict(good))
+        yield StreamTest(streams, f"lag of {test}", found, f"{1e3 * least:.0f} to {1e3 * most:.0f} ms", _verdict(good))
     angle, sd = math.degrees(float(np.linalg.norm(fit.turn))), math.degrees(fit.turn_sd)
     if kind.turn < math.inf and sd < 0.6 * kind.turn:
         good = angle < kind.turn + SURE * sd
-        yield Finding(
+        yield StreamTest(
             streams, f"axes of {test}", f"{axis_and_angle(fit.turn)}", f"within {kind.turn:g}°", _verdict(good)
         )
 
 
-def away(laws: Laws, log: Log) -> Array | None:
+def away(laws: VehicleLaws, log: Log) -> Array | None:
     """Where the accelerometer is, from the payload's origin [m], if it is elsewhere; None if it may be there."""
     found = laws.place(log)
     if found is None or found[1].max() > AWAY:
@@ -162,7 +162,7 @@ def axis_and_angle(turn: Array) -> str:
 class Streams(NamedTuple):
     """What the tests of a log found: their table, and where the accelerometer is if not at the payload's origin [m]."""
 
-    table: tuple[Finding, ...]
+    table: tuple[StreamTest, ...]
     place: Array | None
 
 
@@ -178,7 +178,7 @@ def check_streams(log: Log, table: VehicleTable) -> Streams:
     """
     check_log(log)
     _check_spans(log)
-    laws, log = Laws(table), thinned(log)
+    laws, log = VehicleLaws(table), thinned(log)
     found, place = tuple(findings_of(laws, log)), away(laws, log)
     if place is not None:
         laws.at = place
@@ -191,7 +191,7 @@ def check_streams(log: Log, table: VehicleTable) -> Streams:
     if not wrong:
         if place is not None:
             at = f"{np.round(place, 2).tolist()} m from the payload's origin"
-            found += (Finding(FORCE, "place of the accelerometer", at, f"within {AWAY:g} m", "estimated"),)
+            found += (StreamTest(FORCE, "place of the accelerometer", at, f"within {AWAY:g} m", "estimated"),)
         return Streams(found, place)
     first = wrong[0]
     said = f"{log.source}: stream {first.stream}: {first.test}: {first.found}; expected: {first.expected}"
@@ -227,7 +227,7 @@ def _check_spans(log: Log) -> None:
         )
 
 
-def causes_of(log: Log, laws: Laws, wrong: Sequence[Finding]) -> list[Cause]:
+def causes_of(log: Log, laws: VehicleLaws, wrong: Sequence[StreamTest]) -> list[Cause]:
     """The changes with which no test contradicts, the best first."""
     concerned = {name for one in wrong for name in one.stream.split(", ")}
     first = [name for name in laws.names if any(MEANINGS[name.split()[0]] in one.test for one in wrong)]
@@ -282,17 +282,17 @@ def _axes(order: Sequence[int], signs: Sequence[float]) -> str:
 
 def _mapped(
     name: str, width: int, order: Sequence[int], signs: Sequence[float], only: Iterable[int] | None = None
-) -> Correction:
+) -> MapCorrection:
     """Axes of a stream in another order and with other signs; of joints, of some quadrotors."""
     columns, factors = list(range(width)), [1.0] * width
     for i in range(width // 3) if only is None else only:
         for axis in range(3):
             columns[3 * i + axis], factors[3 * i + axis] = 3 * i + order[axis], signs[axis]
     moved = tuple(columns) if columns != [*range(width)] else ()
-    return Correction(name, moved, tuple(factors) if min(factors) < 0.0 else ())
+    return MapCorrection(name, moved, tuple(factors) if min(factors) < 0.0 else ())
 
 
-def candidates(log: Log, laws: Laws, concerned: Iterable[str]) -> Iterator[Cause]:
+def candidates(log: Log, laws: VehicleLaws, concerned: Iterable[str]) -> Iterator[Cause]:
     """Single mistakes of a map that may be in some streams of a log."""
     concerned = [name for name in log if name in {*concerned}]
     yield from _units(log, concerned)
@@ -304,7 +304,7 @@ def candidates(log: Log, laws: Laws, concerned: Iterable[str]) -> Iterator[Cause
     if VELOCITY in concerned and ATTITUDE in log:
         given = log.ways.get(VELOCITY, {}).get("frame", "")
         yield Cause(
-            f"along {'world' if given else 'body'} axes", (Correction(VELOCITY, frame="world" if given else "body"),)
+            f"along {'world' if given else 'body'} axes", (MapCorrection(VELOCITY, frame="world" if given else "body"),)
         )
     if {*IMU} & {*concerned}:
         for order, signs in ROTATIONS:
@@ -328,12 +328,12 @@ def _units(log: Log, concerned: Sequence[str]) -> Iterator[Cause]:
         for unit in ("1", *(unit for unit, (other, _) in UNITS.items() if other == own)):
             if unit not in (given, own):
                 words = f"in {own} already" if unit == "1" else f"in {unit}"
-                yield Cause(words, (Correction(name, unit=unit),))
+                yield Cause(words, (MapCorrection(name, unit=unit),))
         if np.any(np.abs(way.get("scale", 1.0)) != 1.0):
-            yield Cause(f"in {own if given == '1' else given} already", (Correction(name, plain=True),))
+            yield Cause(f"in {own if given == '1' else given} already", (MapCorrection(name, plain=True),))
 
 
-def _late(log: Log, laws: Laws, concerned: Sequence[str]) -> Iterator[Cause]:
+def _late(log: Log, laws: VehicleLaws, concerned: Sequence[str]) -> Iterator[Cause]:
     """Late stamps of a stream, or of all of a source."""
     groups = [(name,) for name in concerned] + [
         tuple(name for name in group if name in log) for group in (MOTION, JOINTS, IMU) if {*group} & {*concerned}
@@ -352,10 +352,10 @@ def _late(log: Log, laws: Laws, concerned: Sequence[str]) -> Iterator[Cause]:
         for lag in lags:
             if abs(lag) > 0.008:
                 words = f"stamped {1e3 * abs(lag):.0f} ms {'late' if lag > 0.0 else 'early'}"
-                yield Cause(words, tuple(Correction(name, delay=lag) for name in group))
+                yield Cause(words, tuple(MapCorrection(name, delay=lag) for name in group))
 
 
-def _attitudes(log: Log, laws: Laws) -> Iterator[Cause]:
+def _attitudes(log: Log, laws: VehicleLaws) -> Iterator[Cause]:
     """Other quaternions, and other axes of the world and of what is tracked."""
     there = [name for name in MOTION if name in log]
     if ATTITUDE in log:
@@ -373,38 +373,38 @@ def _attitudes(log: Log, laws: Laws) -> Iterator[Cause]:
                     (ORDERS[0], (1.0, -1.0, -1.0)): "of front, right, down in north, east, down",
                     SAME: "",
                 }.get((axes, signs), _axes(axes, signs))
-                one = Correction(
+                one = MapCorrection(
                     ATTITUDE, moved if moved != (0, 1, 2, 3) else (), () if min(signs) > 0.0 else (1.0, *signs)
                 )
                 yield Cause(" and ".join(filter(None, (words, named))), (one,))
         for axis, angle in itertools.product(range(3), (90.0, -90.0, 180.0)):
             turn = tuple(angle * (i == axis) for i in range(3))
             words = f"of axes that are turned by {angle:.0f}° about {'xyz'[axis]}"
-            yield Cause(words, (Correction(ATTITUDE, turn=turn),))
+            yield Cause(words, (MapCorrection(ATTITUDE, turn=turn),))
         if any(log.ways.get(ATTITUDE, {}).get("turn", ())):
             back = tuple(-x for x in log.ways[ATTITUDE]["turn"])
-            yield Cause("of the body's own axes", (Correction(ATTITUDE, turn=back),))
+            yield Cause("of the body's own axes", (MapCorrection(ATTITUDE, turn=back),))
         fit = dict(laws.fits(log)).get("turn")
         if fit is not None and fit.alike > ALIKE:
             turn = tuple(np.degrees(-fit.turn).tolist())
             words = f"of axes that are {axis_and_angle(-fit.turn)} against the gyroscope's"
-            yield Cause(words, (Correction(ATTITUDE, turn=turn),))
+            yield Cause(words, (MapCorrection(ATTITUDE, turn=turn),))
             words = f"a gyroscope's of axes that are {axis_and_angle(fit.turn)} against the attitude's"
-            yield Cause(words, (Correction(RATES, turn=tuple(np.degrees(fit.turn).tolist())),))
+            yield Cause(words, (MapCorrection(RATES, turn=tuple(np.degrees(fit.turn).tolist())),))
     in_world = [name for name in there if not log.ways.get(name, {}).get("frame")]
     for group in ([ATTITUDE], in_world, [name for name in in_world if name != ATTITUDE]):
         if not group or not all(name in log for name in group):
             continue
         ups = {log.ways.get(name, {}).get("up", "z") for name in group}
         for up in {"y", "z"} - (ups if len(ups) == 1 else set()):
-            yield Cause(f"of a world with {up} up", tuple(Correction(name, up=up) for name in group))
+            yield Cause(f"of a world with {up} up", tuple(MapCorrection(name, up=up) for name in group))
         for flip, (order, factors) in HALF_TURNS.items():
             signs = tuple(1.0 if a == flip else -1.0 for a in "xyz")
             words = "of a world with z down" if flip == "x" else f"of a world turned by 180° about {flip}"
             yield Cause(
                 words,
                 tuple(
-                    Correction(name, order, factors) if name == ATTITUDE else Correction(name, (), signs)
+                    MapCorrection(name, order, factors) if name == ATTITUDE else MapCorrection(name, (), signs)
                     for name in group
                 ),
             )
@@ -426,7 +426,7 @@ def _joints(log: Log) -> Iterator[Cause]:
         for order in itertools.islice(itertools.permutations(range(count)), 1, MOST_ORDERS):
             columns = tuple(3 * i + axis for i in order for axis in range(3))
             words = f"of quadrotors in the order {', '.join(map(str, order))}"
-            yield Cause(words, tuple(Correction(name, columns) for name in group))
+            yield Cause(words, tuple(MapCorrection(name, columns) for name in group))
     quadrotors: list[list[int] | None] = [None, *([i] for i in range(count) if count > 1)]
     for group, only in itertools.product(groups, quadrotors):
         where = "" if only is None else f" at quadrotor {only[0]}"
@@ -440,12 +440,12 @@ def _commands(name: str, width: int) -> Iterator[Cause]:
     """Quadrotors and rotors in another order, other powers."""
     for order in itertools.islice(itertools.permutations(range(width // 4)), 1, MOST_ORDERS):
         columns = tuple(4 * i + rotor for i in order for rotor in range(4))
-        yield Cause(f"of quadrotors in the order {', '.join(map(str, order))}", (Correction(name, columns),))
+        yield Cause(f"of quadrotors in the order {', '.join(map(str, order))}", (MapCorrection(name, columns),))
     for only in [None, *(range(width // 4) if width > 4 else ())]:
         for order in itertools.islice(itertools.permutations(range(4)), 1, None):
             columns = tuple(
                 4 * i + (order[rotor] if only in (None, i) else rotor) for i in range(width // 4) for rotor in range(4)
             )
             where = "" if only is None else f" of quadrotor {only}"
-            yield Cause(f"of rotors{where} in the order {', '.join(map(str, order))}", (Correction(name, columns),))
-    yield Cause("of squares of what is expected", (Correction(name, power=0.5),))
+            yield Cause(f"of rotors{where} in the order {', '.join(map(str, order))}", (MapCorrection(name, columns),))
+    yield Cause("of squares of what is expected", (MapCorrection(name, power=0.5),))

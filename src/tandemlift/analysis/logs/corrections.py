@@ -78,7 +78,7 @@ def in_body_and_world(
     return Stream(time - delay, values)
 
 
-class Correction(NamedTuple):
+class MapCorrection(NamedTuple):
     """A correction of one stream's table in a map.
 
     Attributes:
@@ -138,11 +138,11 @@ class Correction(NamedTuple):
         return found | ({"frame": self.frame.replace("world", "")} if self.frame else {})
 
 
-def corrected(log: Log, corrections: Sequence[Correction]) -> Log:
+def corrected(log: Log, corrections: Sequence[MapCorrection]) -> Log:
     """A log as it would have been read by the corrected map."""
     by_name = {one.stream: one for one in corrections}
     if ATTITUDE in by_name and VELOCITY in log and log.ways.get(VELOCITY, {}).get("frame"):
-        by_name.setdefault(VELOCITY, Correction(VELOCITY))
+        by_name.setdefault(VELOCITY, MapCorrection(VELOCITY))
     raw = {name: _as_given(log, name) for name in by_name}
     streams = dict(log.streams)
     for name in sorted(by_name, key=lambda name: name != ATTITUDE):
@@ -178,7 +178,7 @@ def _scale(way: Mapping[str, Any], width: int) -> Array:
     return np.resize(scale, width) * factor_of(way.get("unit", "1"))
 
 
-def in_words(corrections: Iterable[Correction], log: Log) -> str:
+def in_words(corrections: Iterable[MapCorrection], log: Log) -> str:
     """Corrections as tables of a map on one line: what is to be pasted."""
     texts = []
     for one in corrections:

@@ -56,7 +56,7 @@ TOLD = 0.12  # standard deviation of a scale that is known
 ACROSS, UPWARD = np.array([1.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0])
 
 
-class Kind(NamedTuple):
+class LawKind(NamedTuple):
     """What is expected of a law.
 
     Attributes:
@@ -77,16 +77,16 @@ class Kind(NamedTuple):
 
 
 KINDS = {
-    "turn": Kind((0.8, 1.25), 4.0, 2.0 * SMOOTH, turn=5.0),
-    "path": Kind((0.8, 1.25), 20.0, 4.0 * SMOOTH, turn=15.0),
-    "speed": Kind((0.6, 1.6), 4.0, 4.0 * SMOOTH, turn=15.0),
-    "load": Kind((0.4, 2.5), SLOW, SMOOTH, pushed=True),
-    "lever": Kind((0.4, 2.5), SLOW, SMOOTH, pushed=True),
-    "lift": Kind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
-    "twist": Kind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
-    "side": Kind((0.4, 2.5), SLOW, SMOOTH, pushed=True),
-    "thrust": Kind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
-    "torque": Kind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
+    "turn": LawKind((0.8, 1.25), 4.0, 2.0 * SMOOTH, turn=5.0),
+    "path": LawKind((0.8, 1.25), 20.0, 4.0 * SMOOTH, turn=15.0),
+    "speed": LawKind((0.6, 1.6), 4.0, 4.0 * SMOOTH, turn=15.0),
+    "load": LawKind((0.4, 2.5), SLOW, SMOOTH, pushed=True),
+    "lever": LawKind((0.4, 2.5), SLOW, SMOOTH, pushed=True),
+    "lift": LawKind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
+    "twist": LawKind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
+    "side": LawKind((0.4, 2.5), SLOW, SMOOTH, pushed=True),
+    "thrust": LawKind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
+    "torque": LawKind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
 }
 
 
@@ -120,7 +120,7 @@ class Fit(NamedTuple):
     turn_sd: float
 
 
-def fitted(y: Array, x: Array, good: Truths, noise: tuple[Array, Array], kind: Kind) -> Fit | None:
+def fitted(y: Array, x: Array, good: Truths, noise: tuple[Array, Array], kind: LawKind) -> Fit | None:
     """The fit of y = A x, both (n, 3); None if the grid is too short.
 
     Args:
@@ -168,7 +168,7 @@ def fitted(y: Array, x: Array, good: Truths, noise: tuple[Array, Array], kind: K
     return Fit(lag, lag_sd, alike, told, power_y > CLEAR * noise[0], scale, scale_sd, off, left, turn, turn_sd)
 
 
-def _beyond(scale: Array, sd: Array, kind: Kind) -> Truths:
+def _beyond(scale: Array, sd: Array, kind: LawKind) -> Truths:
     """Whether scales are surely beyond those that are allowed (3,)."""
     low, high = kind.scales
     return np.asarray((scale + SURE * sd < low) | (scale - SURE * sd > high))
@@ -244,7 +244,7 @@ LAWS = {
 OF_EACH = ("side", "thrust", "torque")
 
 
-class Laws:
+class VehicleLaws:
     """The laws of a vehicle, fitted to logs.
 
     Args:
