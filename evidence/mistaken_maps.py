@@ -35,6 +35,7 @@ from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.missions import Mission
 
 FIRST_SEED = 41000
+SAME = 0.01  # of the spread of a stream: logs that differ by less are the same
 SECONDS = 20.0  # of a flight
 RATES, FORCE, SPEEDS = "measured_rates", "measured_specific_force", "rotor_speed_commands"
 POSITION, VELOCITY, _ = MOTION
@@ -262,6 +263,16 @@ def late_between(one: Log, other: Log) -> float:
     return float(np.ptp(shifts))
 
 
+def moved_by(right: Log, wrong: Log, mission: Mission) -> float:
+    """The largest difference of what is identified from two logs, in half intervals of the first."""
+    weighed, silent = {"vehicle.payload.mass": mission.vehicle.payload.mass}, {"progress": lambda done, of: None}
+    try:
+        a, b = (tl.identify(log, mission, weighed=weighed, **silent) for log in (right, wrong))
+    except InputError:
+        return 0.0  # refused after all
+    return max(abs(x.value - y.value) / x.half for x, y in zip((*a.rows, *a.whole), (*b.rows, *b.whole), strict=True))
+
+
 def verdict(path: Path, wrong: Map, right: Log, mission: Mission) -> dict[str, Any]:
     """What becomes of a log that is read by a mistaken map."""
 
@@ -275,7 +286,8 @@ def verdict(path: Path, wrong: Map, right: Log, mission: Mission) -> dict[str, A
     except InputError as error:
         said = str(error)
     else:
-        return {"refused": False, "error": error_between(right, log), "late": late_between(right, log)}
+        found = {"refused": False, "error": error_between(right, log), "late": late_between(right, log)}
+        return found | {"moved": moved_by(right, log, mission) if found["error"][1] > SAME else 0.0}
     new, found = pasted(wrong, said), {"refused": True, "said": said}
     if new is None:
         return found | {"named": False}
@@ -363,7 +375,11 @@ def main() -> None:
     print(f"refused {len(refused)}, the true cause in {named} ({named / max(len(refused), 1):.1%})")
     for row in rows:
         if not row["refused"]:
-            print(f"accepted: seed {row['seed']}, {row['kind']}, differs {row['error']}, late {row['late']:.4f} s")
+            name, error = row["error"]
+            print(
+                f"accepted: seed {row['seed']}, {row['kind']}: {name} differs by {error:.3f} of its spread; what is "
+                f"identified, by {row['moved']:.2f} half intervals at most"
+            )
 
 
 if __name__ == "__main__":
