@@ -131,7 +131,7 @@ def _of_law(name: str, streams: str, fit: Fit | None) -> Iterator[StreamTest]:
     least, most = kind.lags
     if fit.alike > ALIKE and not off:
         good = least - SURE * fit.lag_sd < fit.lag < most + SURE * fit.lag_sd
-        found = f"late by {1e3 * fit.lag:.0f} ms"
+        found = f"late by {round(1e3 * fit.lag)} ms"
         yield StreamTest(streams, f"lag of {test}", found, f"{1e3 * least:.0f} to {1e3 * most:.0f} ms", _verdict(good))
     angle, sd = math.degrees(float(np.linalg.norm(fit.turn))), math.degrees(fit.turn_sd)
     if kind.turn < math.inf and sd < 0.6 * kind.turn:

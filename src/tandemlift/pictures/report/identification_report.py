@@ -69,7 +69,7 @@ def write_identification(found: Mapping[str, Any], folder: Path) -> Path:
         whole=_table(found["whole_vehicle"]),
         residuals=_residuals(found),
         streams=_streams(found["streams"]),
-        assumptions=PageTable("compared keys", ("", "Assumed"), [[a, b] for a, b in found["assumptions"]]),
+        assumptions=PageTable("setup", ("", "Assumed"), [[a, b] for a, b in found["assumptions"]]),
         figures=shown_figures(drawn, CAPTIONS),
         versions=f"Identified with {', '.join(f'{name} {version}' for name, version in versions('compiled').items())}.",
     )
@@ -104,10 +104,8 @@ def _residuals(found: Mapping[str, Any]) -> PageTable:
 
 def _streams(tests: Sequence[Mapping[str, str]]) -> PageTable:
     titles = ("Streams", "Test", "Found", "Expected", "Verdict")
-    lines: list[list[Cell]] = [
-        [code(t["stream"]), t["test"], t["found"], t["expected"] or DASH, t["verdict"]] for t in tests
-    ]
-    return PageTable("compared keys", titles, lines)
+    lines: list[list[Cell]] = [[t["stream"], t["test"], t["found"], t["expected"] or DASH, t["verdict"]] for t in tests]
+    return PageTable("setup", titles, lines)
 
 
 @styled
