@@ -11,9 +11,9 @@ from tandemlift.analysis.identification.windows import (
     _clear,
     _in_flight,
     _speeds,
-    _without_spikes,
     windows_of,
 )
+from tandemlift.analysis.logs.grid import without_spikes
 from tandemlift.analysis.logs.log import COMMANDS, IMU, MOTION, SPEED_COMMANDS, Log, Stream
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY
@@ -87,7 +87,7 @@ def test_a_spike_is_left_out_with_what_it_spoils_and_a_still_column_has_none():
     values = np.column_stack([RNG.normal(size=200), np.full(200, 2.0)])
     values[77, 0] += 80.0
     values[120, 1] += 1e-9  # a column that hardly ever changes cannot say what is usual
-    kept = _without_spikes(Stream(np.arange(200.0), values))
+    kept = without_spikes(Stream(np.arange(200.0), values))
     gone = set(range(200)) - set(kept.time.astype(int))
     assert 77 in gone
     assert gone <= {76, 77, 78}

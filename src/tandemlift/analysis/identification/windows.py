@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from tandemlift.analysis.logs import log as logs
 from tandemlift.analysis.logs.causes import StreamTest, check_streams
 from tandemlift.analysis.logs.clocks import GAP
+from tandemlift.analysis.logs.grid import without_spikes
 from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, PUSH, SPEED_COMMANDS, Log, Stream
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY, Array
@@ -30,7 +31,6 @@ BLOCK = 0.010  # s, over which samples are averaged for derivatives
 LENGTH = 1.0  # s of a window
 LONGEST_DELAY = 0.1  # s that a command may be late
 SETTLING = 0.3  # s from the first command until the rotors' speeds are known
-SPIKE = 15.0  # times the usual distance of a sample from the middle of its neighbours
 HELD = 0.75  # of the samples of a stream: if fewer are new, a table holds each of them for several rows
 STRAIGHT = 1e-3  # of the change between its neighbours: a sample so near their straight line was drawn there
 BEYOND = 0.01  # of the commanded speeds, that may be above the largest
@@ -277,7 +277,7 @@ def check_columns(log: Log, vehicle: VehicleTable, name_of_mission: str) -> None
 
 def _samples(cut: FlightWindows, stream: Stream) -> Samples:
     """The samples of a stream that are in windows."""
-    stream = _without_spikes(stream)
+    stream = without_spikes(stream)
     exact = (stream.time - cut.begin) / cut.step
     step = np.floor(exact + 1e-3).astype(np.intp)
     beyond = np.where(np.abs(exact - step) < 2e-3, 0.0, exact - step)
@@ -285,15 +285,6 @@ def _samples(cut: FlightWindows, stream: Stream) -> Samples:
     local = step - cut.first[np.maximum(window, 0)]
     inside = (window >= 0) & (local < cut.length)
     return Samples(window[inside], local[inside], beyond[inside], stream.values[inside])
-
-
-def _without_spikes(stream: Stream) -> Stream:
-    """The samples that are not far off the middle of their neighbours, measured by the median of all."""
-    off = np.zeros_like(stream.values)
-    off[1:-1] = np.abs(stream.values[1:-1] - 0.5 * (stream.values[:-2] + stream.values[2:]))
-    usual = np.median(off, axis=0)
-    kept = np.all((off <= SPIKE * usual) | (usual == 0.0), axis=1)
-    return Stream(stream.time[kept], stream.values[kept])
 
 
 def _have_starts(cut: FlightWindows) -> Truths:

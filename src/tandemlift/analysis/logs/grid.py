@@ -27,6 +27,7 @@ ATTITUDE = MOTION[2]
 CELL = 0.01  # s of the grid
 SMOOTH = 0.05  # s, half the width of the triangle
 LONGEST = 120.0  # s of a log that are looked at
+SPIKE = 15.0  # times the usual distance of a sample from the middle of its neighbours
 GAP = 0.06  # s: a longer one is left out
 
 Truths = NDArray[np.bool_]
@@ -48,10 +49,20 @@ def quick(v: Array, slow: float) -> Array:
     return v - np.stack([np.convolve(c, np.ones(width), "same") for c in v.T], axis=1) / ones[:, None]
 
 
+def without_spikes(stream: Stream) -> Stream:
+    """The samples that are not far off the middle of their neighbours, measured by the median of all."""
+    off = np.zeros_like(stream.values)
+    off[1:-1] = np.abs(stream.values[1:-1] - 0.5 * (stream.values[:-2] + stream.values[2:]))
+    usual = np.median(off, axis=0)
+    kept = np.all((off <= SPIKE * usual) | (usual == 0.0), axis=1)
+    return Stream(stream.time[kept], stream.values[kept])
+
+
 def thinned(log: Log) -> Log:
-    """A log with means of neighbours in place of samples that come faster than two in a cell."""
+    """A log without spikes, with means of neighbours in place of samples that come faster than two in a cell."""
     streams = dict[str, Stream]()
-    for name, (time, values) in log.items():
+    for name, whole in log.items():
+        time, values = without_spikes(whole) if name.startswith("measured") else whole
         many = min(int(0.5 * CELL * log.rate(name) + 0.01), max(len(time) // 8, 1))
         count = len(time) // max(many, 1) * many
         if many > 1 and name != ATTITUDE:
