@@ -244,10 +244,13 @@ def causes_of(log: Log, laws: VehicleLaws, wrong: Sequence[StreamTest]) -> list[
 
 
 def _unexplained(fits: Mapping[str, Fit | None]) -> float:
-    """The parts of squares that the laws leave, and how far told scales are from 1, summed over axes."""
+    """The parts of squares that the laws leave, and how far told scales are from 1 and lags from 0, summed."""
     total = 0.0
-    for fit in fits.values():
+    for name, fit in fits.items():
         if fit is not None:
+            least, most = KINDS[name.split()[0]].lags
+            if least == -most and fit.told.any():
+                total += FAR * min(abs(fit.lag) / most, 1.0)
             total += float(np.sum(np.minimum(fit.left, WORST)))
             total += FAR * float(np.sum(np.abs(np.log(np.maximum(fit.scale[fit.told], 1e-3)))))
     return total
