@@ -220,7 +220,8 @@ def test_outliers_gaps_and_clocks_of_their_own_change_little(log, found):
     joints, motion = ([n for n in bad if any(part in n for part in names)] for names in (("joint",), MOTION))
     bad = bad.aligned(joints, 1.3e-3, 2e-5, 20.0).aligned(motion, -0.7e-3, -3e-5, 20.0)
     again = tl.identify(bad, START, weighed=WEIGHED, predict=log.between(22.0, 30.0), window=0.8, **SILENT)
-    assert again.details["clocks"]["measured_joint_force"] == pytest.approx(-1.3e-3, abs=2e-4)
+    ahead = 0.5e-3  # in a simulated flight the thrust of a step is held: a reading has that of half a step later
+    assert again.details["clocks"]["measured_joint_force"] == pytest.approx(-1.3e-3 + ahead, abs=2e-4)
     assert again.details["clocks"]["measured_position"] == pytest.approx(0.7e-3, abs=3e-4)
     assert all(0.8 < ratio < 1.5 for ratio in again.details["predicted"]["ratio"].values())
     for row in (*found.rows, *found.whole):

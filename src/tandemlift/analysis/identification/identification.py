@@ -76,9 +76,11 @@ class Identification:
         for row in (*self.rows, *self.whole):
             if row.key == key:
                 return row
-        if "*" in key and (own := [row for row in self.rows if fnmatch(row.key, key)]):
-            value, low, high = (float(np.mean([row[i] for row in own])) for i in (1, 2, 3))
-            return own[0]._replace(key=key, value=value, low=low, high=high)
+        if "*" in key and (own := [i for i, row in enumerate(self.rows) if fnmatch(row.key, key)]):
+            rows, alike = [self.rows[i] for i in own], np.array(self.details["correlation"])[np.ix_(own, own)]
+            value, halves = float(np.mean([row.value for row in rows])), np.array([row.half for row in rows])
+            half = float(np.sqrt(max(halves @ alike @ halves, 0.0))) / len(rows)
+            return rows[0]._replace(key=key, value=value, low=value - half, high=value + half)
         raise KeyError(f"{key} was not identified; {', '.join(row.key for row in (*self.rows, *self.whole))} were")
 
     def __repr__(self) -> str:
