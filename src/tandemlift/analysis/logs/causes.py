@@ -31,6 +31,7 @@ STILL_TOLD = 0.5  # standard deviation of a scale, up to which a law tells somet
 AWAY = 0.15  # m from the payload's origin that an accelerometer may be, which the centre of mass may be off, too
 LIKELIER = 12.0  # units of log-likelihood
 FAR = 0.3  # of what a law leaves, for a scale that is e times what the mission says
+RARE = 0.3  # of what a law leaves, for a unit that is near another and seldom met
 WORST = 1.5  # part of a square that a law leaves, at most: more is no worse
 MOST_ORDERS = 24  # of quadrotors that are tried
 NEARLY = 0.15  # relative: a scale so near that of a unit is it
@@ -239,7 +240,8 @@ def causes_of(log: Log, laws: VehicleLaws, wrong: Sequence[StreamTest]) -> list[
             continue
         fits = dict(laws.fits(other))
         if all((fit := fits.get(name)) is not None and fit.scale_sd.min() < STILL_TOLD for name in before):
-            found.append((_unexplained(fits), number, cause))
+            rare = RARE * any(one.unit in ("lbf ft", "lbf in", "cm/s", "km/h") for one in cause.corrections)
+            found.append((_unexplained(fits) + rare, number, cause))
     return [cause for *_, cause in sorted(found, key=lambda item: item[:2])]
 
 
