@@ -20,6 +20,7 @@ from tandemlift.analysis.identification.windows import FEWEST
 from tandemlift.core.types import Array, Progress
 
 ROUGH_STEPS, FAR_STEPS, MOST_STEPS = 3, 7, 20  # of beginnings; the most with every window; the most of all
+LAST_BACK = 14  # the step from which on windows that were left out stay so
 NEAR, ENOUGH = 20.0, 0.25  # standard deviations: a step below the first is near the end, below the second is it
 UNEXPLAINED = 0.15  # of the mean square of a stream's residuals in the median window, as much more, is no vehicle's
 CHANCE = 5.0  # standard deviations of such a mean square that chance may add
@@ -29,6 +30,7 @@ class VehicleSearch(Linearisation):
     """The search for a vehicle's numbers."""
 
     lost = False  # whether the search left all finite numbers
+    settled = False  # whether it came to an end before its last step
 
     @np.errstate(over="ignore", invalid="ignore")
     def run(self, progress: Progress | None = None, *, follow: bool = True) -> tuple[list[Equations], NormalEquations]:
@@ -59,14 +61,15 @@ class VehicleSearch(Linearisation):
             size = np.abs(step[:shared] / sd).max(initial=0.0)
             if progress:
                 progress(number + 1, MOST_STEPS)
-            if number > chosen + 1 and size < ENOUGH:
+            self.settled = number > chosen + 1 and size < ENOUGH
+            if self.settled:
                 break
             if number > chosen and follow:
                 self._follow_noise(equations)
             elif chosen == MOST_STEPS and number >= ROUGH_STEPS and (size < NEAR or number == FAR_STEPS):
                 chosen = number
             if number >= chosen and follow:
-                self._leave_out(equations)
+                self._leave_out(equations, back=number < LAST_BACK)
         if progress:
             progress(MOST_STEPS, MOST_STEPS)
         return self.linearised(CAREFUL)
@@ -86,11 +89,11 @@ class VehicleSearch(Linearisation):
             own = [eq.spread[name] for eq in equations if name in eq.spread] or [self.estimate.noise[name]]
             self.estimate.noise[name] = max(float(np.median(own)), 1e-12)
 
-    def _leave_out(self, equations: list[Equations]) -> None:
+    def _leave_out(self, equations: list[Equations], *, back: bool = True) -> None:
         """Leave out the windows that no vehicle explains and those beside them.
 
         If these are more than half of a log, the worst go first, and `FEWEST` stay. Windows that the present vehicle
-        explains come back.
+        explains come back, but not in the last steps, so that two sets of windows do not take turns.
         """
         for part, own in zip(self.parts, equations, strict=True):
             worst = np.zeros(len(part.used))
@@ -105,5 +108,9 @@ class VehicleSearch(Linearisation):
             count, gone = len(out), int(beside.sum())
             part.crowded = gone > count // 2
             order = np.lexsort((-worst, ~beside, ~out))[: min(gone, count - FEWEST) if part.crowded else gone]
-            part.used = np.ones_like(out)
-            part.used[order] = False
+            used = np.ones_like(out)
+            used[order] = False
+            if back or (used & part.used).sum() < FEWEST:
+                part.used = used
+            else:
+                part.used &= used

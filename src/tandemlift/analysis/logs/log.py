@@ -11,7 +11,7 @@ docs/how-to/log-a-vehicle.md is the contract for users.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -86,6 +86,7 @@ class Log(Mapping[str, Stream]):
         notes: what was found and changed since it was read, a line each.
         stamp_offset: how far [s] stamps of readings may be off from those of commands; None if nobody said it.
         breaks: the times [s] at which the estimate of the motion was reset: no window goes over one.
+        ways: of each stream that a map led to, its table in that map, as far as it was given.
 
     Raises:
         InputError: a stream is unknown or empty, has another width, a number that is not finite, or a stamp that is not
@@ -97,6 +98,7 @@ class Log(Mapping[str, Stream]):
     notes: tuple[str, ...] = ()
     stamp_offset: float | None = None
     breaks: tuple[float, ...] = ()
+    ways: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         off = 0.0 if self.stamp_offset is None else self.stamp_offset

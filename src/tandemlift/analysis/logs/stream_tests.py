@@ -1,0 +1,458 @@
+"""Tests of the streams of a log against each other: what rigid bodies, gravity and rotors say of what each sensor is.
+
+All streams are brought to one grid of time and smoothed alike, by a triangle of `2 SMOOTH`. Then, with y and x two
+sides of a law that holds for every rigid vehicle,
+
+    the turn of the attitude        =  gyroscope                                       (body axes)
+    the change of the position      =  velocity                                        (world axes)
+    the change of the velocity + g  =  R · accelerometer, but for the place of the unit (world axes)
+    the sum of the joints' forces   =  payload's mass · accelerometer                  (body axes)
+    Σ (M + r × F) of the joints     =  J α + m c × f                                   (body axes)
+    a joint's force                 =  thrusts of its quadrotor − m · accelerometer there (body axes)
+    M + d × F + J α of a quadrotor  =  moments of its thrusts                          (body axes)
+    accelerometer                   =  sum of the thrusts over the mass                (z)
+    angular acceleration            =  J⁻¹ B thrusts                                   (body axes)
+
+a 3 × 3 matrix A is fitted, y = A x, at the lag of the largest correlation: it should be the identity, or what the
+mission says of masses and inertias, within a factor. Where the motion tells nothing, nothing is said. Laws with forces
+hold in changes within `SLOW` only: a person's push is slower.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from tandemlift.analysis.logs.grid import CELL, SMOOTH, Grid, Truths, quick, smoothed
+from tandemlift.analysis.logs.log import (
+    COMMANDS,
+    IMU,
+    JOINTS,
+    MOTION,
+    PUSH,
+    SPEED_COMMANDS,
+    Log,
+    Stream,
+    conjugate,
+    rotated,
+)
+from tandemlift.core.types import GRAVITY, Array
+from tandemlift.parts.mechanics.vehicle import Vehicle, mixer
+from tandemlift.parts.mechanics.vehicle_table import VehicleTable
+
+POSITION, VELOCITY, ATTITUDE = MOTION
+FORCE, RATES = IMU
+SLOW = 0.8  # s
+REACH = 0.4  # s, of lags
+FEWEST = 200  # cells
+CLEAR = 8.0  # times the noise's square: a signal
+PART = 1.0  # s
+SURE = 5.0  # standard deviations
+TOLD = 0.12  # standard deviation of a scale that is known
+
+ACROSS, UPWARD = np.array([1.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0])
+
+
+class LawKind(NamedTuple):
+    """What is expected of a law.
+
+    Attributes:
+        scales: the least and the largest scale.
+        slow: time [s] over which changes count.
+        smooth: half the width of its smoothing [s].
+        lags: the least and the largest lag [s].
+        turn: the largest angle [deg] between the axes of both sides; none is told of pushed ones.
+        pushed: whether what is not measured, as a push, acts on it.
+    """
+
+    scales: tuple[float, float]
+    slow: float
+    smooth: float
+    lags: tuple[float, float] = (-0.012, 0.012)
+    turn: float = math.inf
+    pushed: bool = False
+
+
+KINDS = {
+    "turn": LawKind((0.8, 1.25), 4.0, 2.0 * SMOOTH, turn=5.0),
+    "path": LawKind((0.8, 1.25), 20.0, 4.0 * SMOOTH, turn=15.0),
+    "speed": LawKind((0.6, 1.6), 4.0, 4.0 * SMOOTH, turn=15.0),
+    "load": LawKind((0.4, 2.5), SLOW, SMOOTH, pushed=True),
+    "lever": LawKind((0.4, 2.5), SLOW, SMOOTH, pushed=True),
+    "lift": LawKind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
+    "twist": LawKind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
+    "side": LawKind((0.4, 2.5), SLOW, SMOOTH, pushed=True),
+    "thrust": LawKind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
+    "torque": LawKind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
+}
+
+
+class Fit(NamedTuple):
+    """The fit of y = A x, axis by axis; A is expected to be the identity.
+
+    Attributes:
+        lag: by how much [s] y is later than x.
+        lag_sd: its standard deviation [s].
+        alike: the largest correlation of any pair of axes over all lags, 0 to 1.
+        told: whether the scale is known (3,).
+        moves: whether y moves well above its noise (3,).
+        scale: A's diagonal, corrected for the noise of x (3,).
+        scale_sd: its standard deviations (3,).
+        off: whether the scale is beyond what is allowed, in every third of a log that may be pushed (3,).
+        left: the part of the square of y that x leaves, with scales that are allowed (3,).
+        turn: the rotation vector [rad] by which x must be turned to agree with y (3,).
+        turn_sd: the largest standard deviation of its components [rad].
+    """
+
+    lag: float
+    lag_sd: float
+    alike: float
+    told: Truths
+    moves: Truths
+    scale: Array
+    scale_sd: Array
+    off: Truths
+    left: Array
+    turn: Array
+    turn_sd: float
+
+
+def fitted(y: Array, x: Array, good: Truths, noise: tuple[Array, Array], kind: LawKind) -> Fit | None:
+    """The fit of y = A x, both (n, 3); None if the grid is too short.
+
+    Args:
+        y: one side.
+        x: the other.
+        good: which cells count (n,).
+        noise: variances of the noise of y and of x (3,) each.
+        kind: of the law.
+    """
+    if good.sum() < FEWEST:
+        return None
+    a, b = (quick(v, kind.slow) * good[:, None] for v in (y, x))
+    lag, alike = _lag_of(a, b)
+    shift = round(lag / CELL)
+    cut = slice(max(shift, 0), len(a) + min(shift, 0)), slice(max(-shift, 0), len(a) - max(shift, 0))
+    both = good[cut[0]] & good[cut[1]]
+    a, b = a[cut[0]][both], b[cut[1]][both]
+    n = len(a)
+    if n < FEWEST:
+        return None
+    own = max(n * CELL / (2.0 * kind.smooth), 10.0)  # samples that are independent
+    gram, cross = b.T @ b, b.T @ a
+    A = np.linalg.solve(gram + (1e-9 * np.trace(gram) + 1e-300) * np.eye(3), cross).T
+    power_y, power_x = np.mean(a * a, axis=0), np.mean(b * b, axis=0)
+    scale = (
+        _scales(a, b, noise[1])
+        if kind.pushed
+        else np.diag(cross) / n / np.maximum(power_x - noise[1], 0.3 * power_x + 1e-300)
+    )
+    rest = np.mean((a - b * scale) ** 2, axis=0)
+    scale_sd = np.sqrt(rest / np.maximum(power_x, 1e-300) / own)
+    off = _beyond(scale, scale_sd, kind)
+    for third in np.array_split(np.arange(n), 3) if kind.pushed else ():  # a fault or a wall comes at some time
+        p, q = a[third], b[third]
+        power = np.maximum(np.mean(q * q, axis=0), 1e-300)
+        own_scale = _scales(p, q, noise[1])
+        own_sd = np.sqrt(np.mean((p - q * own_scale) ** 2, axis=0) / power / (own / 3.0))
+        off &= _beyond(own_scale, own_sd, kind) | (own_sd > 2.0 * TOLD)
+    told = (scale_sd < TOLD) & (power_x > 3.0 * noise[1])
+    left = np.mean((a - b * np.clip(scale, *kind.scales)) ** 2, axis=0) / np.maximum(power_y, 1e-300)
+    slope = np.mean(np.gradient(a, CELL, axis=0) ** 2, axis=0)
+    whole = np.mean((a - b @ A.T) ** 2, axis=0)
+    lag_sd = 1.0 / math.sqrt(max(float(np.sum(slope / np.maximum(whole, 1e-300))) * own, 1e-300))
+    turn, turn_sd = _turn_of(a, b, whole, own)
+    return Fit(lag, lag_sd, alike, told, power_y > CLEAR * noise[0], scale, scale_sd, off, left, turn, turn_sd)
+
+
+def _beyond(scale: Array, sd: Array, kind: LawKind) -> Truths:
+    """Whether scales are surely beyond those that are allowed (3,)."""
+    low, high = kind.scales
+    return np.asarray((scale + SURE * sd < low) | (scale - SURE * sd > high))
+
+
+def _scales(a: Array, b: Array, noise: Array) -> Array:
+    """The slopes (3,) of a by b that half of the parts of `PART` are below, by weight: a push is in few of them."""
+    parts = max(1, round(len(a) * CELL / PART))
+    power = np.array([np.mean(p * p, axis=0) for p in np.array_split(b, parts)])
+    cross = np.array(
+        [np.mean(p * q, axis=0) for p, q in zip(np.array_split(a, parts), np.array_split(b, parts), strict=True)]
+    )
+    power = np.maximum(power - noise, 0.3 * power + 1e-300)
+    found = []
+    for c, w in zip(cross.T, power.T, strict=True):
+        order = np.argsort(c / w)
+        weight = np.cumsum(np.minimum(w, 3.0 * np.median(w))[order])
+        found.append((c / w)[order][int(np.searchsorted(weight, 0.5 * weight[-1]))])
+    return np.array(found)
+
+
+def _turn_of(a: Array, b: Array, rest: Array, own: float) -> tuple[Array, float]:
+    """(The rotation vector [rad] that turns b into a at best, the largest standard deviation of its components)."""
+    U, _, V = np.linalg.svd(a.T @ b)
+    R = U @ np.diag([1.0, 1.0, np.linalg.det(U @ V)]) @ V
+    power = b.T @ b / len(b)
+    information = (np.trace(power) * np.eye(3) - power) * own / max(float(np.mean(rest)), 1e-300)
+    sd = math.sqrt(float(np.linalg.eigvalsh(np.linalg.inv(information + 1e-9 * np.eye(3)))[-1]))
+    return rotation_vector(R), sd
+
+
+def rotation_vector(R: Array) -> Array:
+    """The rotation vector [rad] of a rotation (3, 3)."""
+    values = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+    angle = math.acos(min(max(0.5 * (float(np.trace(R)) - 1.0), -1.0), 1.0))
+    if math.sin(angle) > 1e-6:
+        return np.asarray(values * (angle / (2.0 * math.sin(angle))))
+    if angle < 1.0:
+        return np.zeros(3)
+    column = R[:, int(np.argmax(np.diag(R)))] + np.eye(3)[int(np.argmax(np.diag(R)))]
+    return np.asarray(angle * column / np.linalg.norm(column))
+
+
+def _lag_of(y: Array, x: Array) -> tuple[float, float]:
+    """(The lag [s] of y against x at which x explains most of y, whatever the axes; the root of that part)."""
+    reach = min(round(REACH / CELL), len(y) // 3)
+    places, n = range(-reach, reach + 1), len(y)
+    cross = np.array([y[max(k, 0) : n + min(k, 0)].T @ x[max(-k, 0) : n - max(k, 0)] for k in places])
+    gram = x.T @ x
+    explained = np.linalg.solve(gram + (1e-6 * np.trace(gram) + 1e-300) * np.eye(3), cross.swapaxes(1, 2))
+    alike = np.einsum("kij,kji->k", cross, explained) / max(float(np.sum(y * y)), 1e-300)
+    best = int(np.argmax(alike))
+    lag = float(places[best])
+    if 0 < best < len(places) - 1:
+        left, here, right = alike[best - 1 : best + 2]
+        lag += 0.5 * (left - right) / min(left - 2.0 * here + right, -1e-300)
+    return CELL * lag, math.sqrt(min(max(float(alike[best]), 0.0), 1.0))
+
+
+LAWS = {
+    "turn": (ATTITUDE, RATES),
+    "path": (POSITION, VELOCITY),
+    "speed": (VELOCITY, FORCE, ATTITUDE),
+    "load": (JOINTS[0], FORCE),
+    "lever": (*JOINTS, RATES),
+    "lift": (FORCE, COMMANDS),
+    "twist": (RATES, COMMANDS),
+    "side": (JOINTS[0], FORCE, RATES),
+    "thrust": (JOINTS[0], FORCE, RATES, COMMANDS),
+    "torque": (JOINTS[1], JOINTS[0], RATES, COMMANDS),
+}
+"""The streams of each law: those of y, then those of x. The last three are of each quadrotor, its number behind."""
+OF_EACH = ("side", "thrust", "torque")
+
+
+class VehicleLaws:
+    """The laws of a vehicle, fitted to logs.
+
+    Args:
+        table: of about such a vehicle.
+    """
+
+    def __init__(self, table: VehicleTable) -> None:
+        self.table, self.vehicle = table, Vehicle.from_settings(table)
+        self.thrust_constants = np.array([q.thrust_constant for q in table.quadrotors for _ in range(4)])
+        self.joints = np.array([q.joint_position for q in table.quadrotors])
+        self.at = np.zeros(3)  # m from the payload's origin: the accelerometer
+        count = len(table.quadrotors)
+        self.names = [
+            name for law in LAWS for name in ([f"{law} {i}" for i in range(count)] if law in OF_EACH else [law])
+        ]
+        self._means = dict[tuple[object, ...], tuple[Array, Stream]]()
+        self._known = dict[tuple[object, ...], tuple[Fit | None, list[Stream]]]()  # streams are kept: ids stay theirs
+
+    def fits(self, log: Log, names: Iterable[str] | None = None) -> Iterator[tuple[str, Fit | None]]:
+        """The fit of each law whose streams the log has, by its name."""
+        commands = SPEED_COMMANDS if SPEED_COMMANDS in log else COMMANDS
+        grid = Grid(log, self._means)
+        for name in self.names if names is None else names:
+            law, *number = name.split()
+            streams = LAWS[law]
+            own = [commands if stream == COMMANDS else stream for stream in streams]
+            if all(stream in log for stream in own):
+                key = (name, *self.at, grid.begin, grid.count, *(x for stream in own for x in map(id, log[stream])))
+                if key not in self._known:
+                    self._known[key] = (
+                        getattr(self, f"_{law}")(grid, commands, *map(int, number)),
+                        [log[stream] for stream in own],
+                    )
+                yield name, self._known[key][0]
+
+    def _turn(self, g: Grid, _: str) -> Fit | None:
+        c = 2 * g.cells
+        y, x = smoothed(g.turn(g.attitudes), c), smoothed(g.mean(RATES), c)
+        noise = g.noise(ATTITUDE, c, derivative=True), g.noise(RATES, c)
+        return fitted(y, x, g.there(c, ATTITUDE, RATES), noise, KINDS["turn"])
+
+    def _path(self, g: Grid, _: str) -> Fit | None:
+        c = 4 * g.cells
+        y, x = smoothed(g.change(POSITION), c), smoothed(g.mean(VELOCITY), c)
+        noise = g.noise(POSITION, c, derivative=True), g.noise(VELOCITY, c)
+        return fitted(y, x, g.there(c, POSITION, VELOCITY), noise, KINDS["path"])
+
+    def frames(self, log: Log) -> dict[str, float]:
+        """By how many units of log-likelihood velocities in other axes suit the position better, by the true frame."""
+        g = Grid(log, self._means)
+        if not {*MOTION} <= {*log} or g.count < FEWEST:
+            return {}
+        c, q = 2 * g.cells, g.attitudes[:-1]
+        good, y, v = g.there(c, *MOTION), smoothed(g.change(POSITION), c), g.mean(VELOCITY)
+        ways = {"": v, "body": rotated(q, v), "world": rotated(conjugate(q), v)}
+        noise = float(np.sum(g.noise(POSITION, c, derivative=True)))
+        rests = {way: float(np.sum(np.mean((y - smoothed(x, c))[good] ** 2, axis=0))) for way, x in ways.items()}
+        own = 3.0 * good.sum() * CELL / (4.0 * SMOOTH)
+        return {way: 0.5 * own * math.log((rests[""] + noise) / (rest + noise)) for way, rest in rests.items() if way}
+
+    def _speed(self, g: Grid, _: str) -> Fit | None:
+        c = 4 * g.cells
+        y, x = smoothed(g.change(VELOCITY), c), smoothed(rotated(g.attitudes[:-1], self._felt(g)), c)
+        tilt = g.noise(ATTITUDE, c) * GRAVITY**2 * [1.0, 1.0, 0.0]
+        noise = g.noise(VELOCITY, c, derivative=True), g.noise(FORCE, c) + tilt
+        return fitted(y, x, g.there(c, VELOCITY, FORCE, ATTITUDE), noise, KINDS["speed"])
+
+    def _load(self, g: Grid, _: str) -> Fit | None:
+        c, each = g.cells, g.mean(JOINTS[0])
+        whole = each.reshape(len(each), -1, 3).sum(axis=1)
+        if {PUSH[0], ATTITUDE} <= {*g.log}:
+            whole = whole + rotated(conjugate(g.attitudes[:-1]), g.mean(PUSH[0]))
+        y = smoothed(whole, c)
+        x = smoothed(self._felt(g), c) * self.table.payload.mass
+        noise = g.noise(JOINTS[0], c), g.noise(FORCE, c) * self.table.payload.mass**2
+        return fitted(y, x, g.there(c, JOINTS[0], FORCE), noise, KINDS["load"])
+
+    def _lever(self, g: Grid, _: str) -> Fit | None:
+        c = g.cells
+        F, M = (g.mean(name).reshape(g.count, -1, 3) for name in JOINTS)
+        y = smoothed((M + np.cross(self.joints, F)).sum(axis=1), c)
+        J = self.table.payload.moments
+        x = smoothed(np.gradient(g.mean(RATES), CELL, axis=0), c) * J
+        arm = np.sum(self.joints**2) - np.sum(self.joints**2, axis=0)
+        noise = (
+            g.noise(JOINTS[1], c) + g.noise(JOINTS[0], c) / len(self.joints) * arm,
+            g.noise(RATES, c, derivative=True) * np.square(J),
+        )
+        return fitted(y, x, g.there(c, RATES, *JOINTS), noise, KINDS["lever"])
+
+    def _thrusts(self, g: Grid, commands: str) -> Array:
+        u = g.mean(commands)
+        return u if commands == COMMANDS else u * u * self.thrust_constants
+
+    def _felt(self, g: Grid) -> Array:
+        """The specific force at the payload's origin."""
+        if not self.at.any():
+            return g.mean(FORCE)
+        w = g.mean(RATES)
+        turning = np.gradient(w, CELL, axis=0)
+        return g.mean(FORCE) - np.cross(turning, self.at) - np.cross(w, np.cross(w, self.at))
+
+    def _wrench(self, g: Grid, commands: str) -> Array:
+        return np.asarray(self._thrusts(g, commands) @ self.vehicle.effect.T)
+
+    def _clear(self, g: Grid) -> Truths:
+        """Where the vehicle is clear of its lowest place, if it rose at all."""
+        if POSITION not in g.log:
+            return np.ones(g.count, bool)
+        z, radius = g.mean(POSITION)[:, 2], max(q.rotor_radius for q in self.table.quadrotors)
+        rise, width = float(np.ptp(z)), round(SLOW / CELL) | 1
+        if rise < 2.0 * radius:
+            return np.ones(g.count, bool)
+        low = (z < z.min() + 0.5 * rise).astype(float)
+        return np.asarray(np.convolve(low, np.ones(width), "same") < 0.5)  # nor within half of SLOW
+
+    def _flies(self, g: Grid, lift: Array) -> Truths:
+        """Where the thrusts carry the vehicle, and it is clear of the floor."""
+        return self._clear(g) & (smoothed(lift[:, None], g.cells)[:, 0] > 0.5 * float(np.median(lift)))
+
+    def _lift(self, g: Grid, commands: str) -> Fit | None:
+        c, wrench = g.cells, self._wrench(g, commands)
+        none = np.zeros((g.count, 2))
+        y = np.hstack([none, smoothed(self._felt(g), c)[:, 2:]])
+        x = np.hstack([none, smoothed(wrench[:, :1] / self.vehicle.mass, c)])
+        noise = g.noise(FORCE, c), np.zeros(3)
+        return fitted(y, x, g.there(c, FORCE, commands) & self._flies(g, wrench[:, 0]), noise, KINDS["lift"])
+
+    def _twist(self, g: Grid, commands: str) -> Fit | None:
+        c, wrench = g.cells, self._wrench(g, commands)
+        y = smoothed(np.gradient(g.mean(RATES), CELL, axis=0), c)
+        x = smoothed(wrench[:, 1:] @ np.linalg.inv(self.vehicle.inertia).T, c)
+        noise = g.noise(RATES, c, derivative=True), np.zeros(3)
+        return fitted(y, x, g.there(c, RATES, commands) & self._flies(g, wrench[:, 0]), noise, KINDS["twist"])
+
+    def _inertial(self, g: Grid, i: int) -> tuple[Array, Array]:
+        """(Mass times specific force of a quadrotor [N] (count, 3), the variance of its noise (3,))."""
+        c, q, w = g.cells, self.table.quadrotors[i], g.mean(RATES)
+        r, turning = np.array(q.position) - self.at, np.gradient(w, CELL, axis=0)
+        force = q.mass * (g.mean(FORCE) + np.cross(turning, r) + np.cross(w, np.cross(w, r)))
+        return force, q.mass**2 * (g.noise(FORCE, c) + g.noise(RATES, c, derivative=True) * float(r @ r))
+
+    def _side(self, g: Grid, _: str, i: int) -> Fit | None:
+        c, (force, noise) = g.cells, self._inertial(g, i)
+        y = smoothed(g.mean(JOINTS[0])[:, 3 * i : 3 * i + 3] * ACROSS, c)
+        return fitted(
+            y,
+            smoothed(-force * ACROSS, c),
+            g.there(c, JOINTS[0], FORCE, RATES),
+            (g.noise(JOINTS[0], c), noise),
+            KINDS["side"],
+        )
+
+    def _thrust(self, g: Grid, commands: str, i: int) -> Fit | None:
+        c, (force, noise) = g.cells, self._inertial(g, i)
+        y = smoothed((g.mean(JOINTS[0])[:, 3 * i : 3 * i + 3] + force) * UPWARD, c)
+        x = smoothed(self._thrusts(g, commands)[:, 4 * i : 4 * i + 4].sum(axis=1)[:, None] * UPWARD, c)
+        good = g.there(c, JOINTS[0], FORCE, RATES, commands) & self._clear(g)
+        return fitted(y, x, good, (g.noise(JOINTS[0], c) + noise, np.zeros(3)), KINDS["thrust"])
+
+    def _torque(self, g: Grid, commands: str, i: int) -> Fit | None:
+        c, q, w = g.cells, self.table.quadrotors[i], g.mean(RATES)
+        F, M = (g.mean(name)[:, 3 * i : 3 * i + 3] for name in JOINTS)
+        d, J = np.subtract(q.joint_position, q.position), np.array(q.tensor)
+        y = smoothed(M + np.cross(d, F) + np.gradient(w, CELL, axis=0) @ J.T, c)
+        x = smoothed(self._thrusts(g, commands)[:, 4 * i : 4 * i + 4] @ mixer(q)[1:].T, c)
+        noise = g.noise(JOINTS[1], c) + float(d @ d) * g.noise(JOINTS[0], c), np.zeros(3)
+        return fitted(y, x, g.there(c, *JOINTS, RATES, commands) & self._clear(g), noise, KINDS["torque"])
+
+    def place(self, log: Log) -> tuple[Array, Array] | None:
+        """(Where the accelerometer is, from the payload's origin [m], body axes; standard deviations), by the motion.
+
+        Its readings less those at the centre of mass, R' (change of the velocity + g), are α × r + ω × (ω × r).
+        """
+        g = Grid(log, self._means)
+        if not {FORCE, RATES, VELOCITY, ATTITUDE} <= {*log} or g.count < FEWEST:
+            return None
+        c, back = 2 * g.cells, conjugate(g.attitudes[:-1])
+        good = g.there(c, FORCE, RATES, VELOCITY, ATTITUDE)
+        if good.sum() < FEWEST:
+            return None
+        seen = smoothed(g.mean(FORCE) - rotated(back, g.change(VELOCITY) + GRAVITY * UPWARD), c)
+        w = g.mean(RATES)
+        turning = np.gradient(w, CELL, axis=0)
+        columns = [smoothed(np.cross(turning, e) + np.cross(w, np.cross(w, e)), c) for e in np.eye(3)]
+        y = quick(seen, 4.0)[good].ravel()
+        X = np.stack([quick(column, 4.0)[good].ravel() for column in columns], axis=1)
+        gram = X.T @ X + 1e-12 * np.eye(3)
+        r = np.linalg.solve(gram, X.T @ y)
+        own = max(good.sum() * CELL / (4.0 * SMOOTH), 10.0)
+        sd = np.sqrt(np.mean((y - X @ r) ** 2) * np.diag(np.linalg.inv(gram)) * good.sum() / own)
+        return r + self.vehicle.center_of_mass, sd
+
+    def constants(self, log: Log) -> dict[str, Array]:
+        """The means that gravity tells: of the accelerometer in world axes, of the joints' sum, of the lift."""
+        g, found = Grid(log, self._means), dict[str, Array]()
+        if g.count < FEWEST:
+            return found
+        if {FORCE, ATTITUDE} <= {*log}:
+            found["up"] = rotated(g.attitudes[:-1], g.mean(FORCE)).mean(axis=0) / GRAVITY
+        if {FORCE, JOINTS[0]} <= {*log}:
+            each = g.mean(JOINTS[0]).reshape(g.count, -1, 3)
+            found["load"] = each.mean(axis=0) / (self.table.payload.mass * GRAVITY)
+        commands = SPEED_COMMANDS if SPEED_COMMANDS in log else COMMANDS
+        if {FORCE, commands} <= {*log}:
+            lift = self._wrench(g, commands)[:, 0]
+            flies = self._flies(g, lift)
+            ratio = float(np.mean(lift[flies])) / (self.vehicle.mass * GRAVITY) if flies.sum() > FEWEST else np.nan
+            stands = ratio < 0.5 and bool(self._clear(g).all())
+            found["lift"] = np.array([np.nan if stands else ratio])
+        return found
