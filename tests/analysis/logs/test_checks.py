@@ -47,5 +47,5 @@ def test_a_flaw_of_a_stream_alone_is_refused(log, changes, message):
 def test_stamps_in_milliseconds_are_refused_before_anything_is_computed(log):
     begin = log.begin
     slow = log.mapped(lambda _, stream: Stream(1e3 * (stream.time - begin), stream.values))
-    with pytest.raises(tl.InputError, match=r'samples at 0\.2 Hz, .* expected; time_unit = "ms"'):
+    with pytest.raises(tl.InputError, match=r'samples at 0\.2 Hz, .* expected; \[measured_\w+\] time_unit = "ms"'):
         tl.shadow(slow, "iris")

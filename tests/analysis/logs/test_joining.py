@@ -77,6 +77,12 @@ def test_quadrotors_of_two_logs_become_columns_on_one_clock(recorders):
     assert [note.split(":")[0] for note in one.notes] == ["right", "tracker"]
 
 
+def test_resets_of_the_estimate_are_those_of_the_log_that_gives_the_motion(recorders):
+    left, _, tracker = recorders
+    one = joined([replace(left, breaks=(4.0,)), replace(tracker, breaks=(10.0,))])
+    assert one.breaks == (pytest.approx(OFFSET + (1.0 + DRIFT) * 10.0, abs=1e-3),)
+
+
 def test_logs_of_two_flights_or_without_a_turn_are_refused(recorders):
     left, right, _ = recorders
     t, rates, _ = turning(30.0, 8)

@@ -96,8 +96,21 @@ def quaternions_of(angles: Array, kind: str) -> Array:
 
 
 def angles_of(q: Array, kind: str) -> Array:
-    """Angles (n, 3) [rad] without whole turns of quaternions w, x, y, z (n, 4); `kind`: as `Way.angles`."""
-    from scipy.spatial.transform import Rotation
+    """Angles (n, 3) [rad] without whole turns of quaternions w, x, y, z (n, 4); `kind`: as `Way.angles`.
 
-    turns = Rotation.from_quat(q[:, [1, 2, 3, 0]])
-    return np.asarray(turns.as_rotvec() if kind == ROTATION_VECTOR else np.unwrap(turns.as_euler(kind), axis=0))
+    Source: Bernardes and Viollet, Quaternion to Euler angles conversion, PLOS ONE 17 (2022).
+    """
+    if kind == ROTATION_VECTOR:
+        size = np.linalg.norm(q[:, 1:], axis=1)
+        angle = 2.0 * np.arctan2(size, np.abs(q[:, 0])) * np.where(q[:, 0] < 0.0, -1.0, 1.0)
+        return np.asarray(q[:, 1:] * (angle / np.maximum(size, 1e-300))[:, None])
+    i, j, k = ("xyz".index(letter) for letter in (kind if kind.islower() else kind[::-1].lower()))
+    is_proper, k = i == k, 3 - i - j
+    sign = (i - j) * (j - k) * (k - i) / 2
+    w, x, y, z = q[:, 0], q[:, 1 + i], q[:, 1 + j], q[:, 1 + k] * sign
+    a, b, c, d = (w, x, y, z) if is_proper else (w - y, x + z, y + w, z - x)
+    middle = 2.0 * np.arctan2(np.hypot(c, d), np.hypot(a, b))
+    half_sum, half_difference = np.arctan2(b, a), np.arctan2(d, c)
+    first, last = half_sum - half_difference, half_sum + half_difference
+    angles = (first, middle, last) if is_proper else (first, middle - 0.5 * np.pi, sign * last)
+    return np.unwrap(np.column_stack(angles if kind.islower() else angles[::-1]), axis=0)

@@ -121,7 +121,7 @@ def _way(table: Mapping[str, Any]) -> Way:
     """The way of a table in a map; of a log without a map, one with no names of columns."""
     lists = ("columns", "topic", "time", "scale", "offset", "turn")
     given = {key: tuple(v) if key in lists and isinstance(v, list) else v for key, v in table.items()}
-    return Way.model_construct(**{"columns": (), **given})
+    return Way.model_construct(None, **{"columns": (), **given})
 
 
 def width_of(log: Log, name: str) -> int:

@@ -57,7 +57,9 @@ def joined(logs: Sequence[Log]) -> Log:
         own = [log[name] for log in every if name in log]
         streams[name] = _beside(own, held=name not in JOINTS) if name in OF_QUADROTORS and len(own) > 1 else own[0]
     source = " and ".join(log.source for log in logs)
-    return replace(first, streams=streams, source=source, notes=tuple(notes), ways={})
+    estimates = [next((log.breaks for log in every if name in log), ()) for name in MOTION]
+    breaks = tuple(sorted({t for own in estimates for t in own}))
+    return replace(first, streams=streams, source=source, notes=tuple(notes), ways={}, breaks=breaks)
 
 
 def clock_against(first: Log, other: Log) -> SourceClock:

@@ -156,7 +156,7 @@ def check_rate(source: str, name: str, time: Array, unit: str = "s") -> None:
     if not low <= rate <= high:
         rates = {other: rate * SECONDS[unit] / size for other, size in SECONDS.items() if other != unit}
         likely = [other for other, found in rates.items() if least <= found <= most]
-        hint = f'; time_unit = "{likely[0]}"?' if likely else ""
+        hint = f'; [{name}] time_unit = "{likely[0]}"?' if likely else ""
         raise InputError(
             f"{source}: stream {name}: samples at {rate:.3g} Hz, from {low:g} to {high:g} Hz are expected{hint}"
         )
