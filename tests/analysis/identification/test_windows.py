@@ -98,6 +98,7 @@ def hovering(seconds, step=0.001):
     vehicle, t = iris().vehicle, np.arange(0.0, seconds, step)
     mass = vehicle.payload.mass + sum(q.mass for q in vehicle.quadrotors)
     constants = np.repeat([q.thrust_constant for q in vehicle.quadrotors], 4)
+    # speeds change by 1e-4 only: these sensors see no motion, and 1 % would turn the vehicle by more than they hide
     speed = np.sqrt(mass * GRAVITY / (8.0 * constants)) * (1.0 + 1e-4 * np.sin(np.outer(t, 1.0 + np.arange(8.0))))
 
     def noisy(width, mean=0.0):
