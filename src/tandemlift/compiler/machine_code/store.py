@@ -34,7 +34,7 @@ CHECKSUM = 32  # bytes
 
 PACKAGE = Path(__file__).resolve().parents[2]
 FOLDERS = ("core", "parts", "compiler", "engines", "simulation/preparation", "simulation/loop")
-FILES = ("simulation/pilot_api",)
+FILES = ("simulation/pilot_api", "simulation/refusals")
 
 ROOMS = ("core", "parts", "compiler", "engines", "simulation", "missions", "flight", "codegen", "pictures/report")
 MATHEMATICS = ("OPENBLAS", "OMP_", "MKL_", "BLIS_", "NPY_")  # beginnings of variables that may change its last bits
