@@ -79,7 +79,7 @@ from tandemlift.simulation.loop.sources import DelayLines, PilotSources, read_pu
 
 
 class FlightState(NamedTuple):
-    """The state of a flight; `ended`: 0 while it goes on, else the number of its ending (`core.outcomes`)."""
+    """The state of a flight; `ended`: 0 while it goes on, else the number of its ending (`core.phases`)."""
 
     state: State
     memory: PilotMemory
