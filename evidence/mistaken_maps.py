@@ -311,15 +311,15 @@ def start_of(changes: dict[str, Any]) -> Mission:
         return tl.load_mission("iris", {"vehicle.quadrotors": quadrotors, "pushes": []})
 
 
-def flights(out: Path, vehicles: int, seconds: float) -> list[tuple[dict[str, Any], dict[str, np.ndarray]]]:
-    """Some vehicles of 1 to 4 quadrotors each, and their flights, kept in a folder."""
+def flights(out: Path, vehicles: int, seconds: float, first: int) -> list[tuple[dict[str, Any], dict[str, np.ndarray]]]:
+    """Some vehicles of 1 to 4 quadrotors each from a seed on, and their flights, kept in a folder."""
     found = []
     for count in (1, 2, 3, 4):
-        file = out / f"flights-{count}-{vehicles}-{seconds:g}.npz"
-        changes = [drawn(FIRST_SEED + 100 * count + i, count) for i in range(vehicles)]
+        file = out / f"flights-{first}-{count}-{vehicles}-{seconds:g}.npz"
+        changes = [drawn(first + 100 * count + i, count) for i in range(vehicles)]
         if not file.exists():
             with without_flight_warnings():
-                made = flown([tl.load_mission("iris", c) for c in changes], seconds, FIRST_SEED + count)
+                made = flown([tl.load_mission("iris", c) for c in changes], seconds, first + count)
             np.savez(file, **{f"{i}:{name}": v for i, one in enumerate(made) for name, v in one.items()})
         with np.load(file) as data:
             for i, change in enumerate(changes):
@@ -360,7 +360,7 @@ def main() -> None:
     given.out.mkdir(parents=True, exist_ok=True)
     file = given.out / "draws.jsonl"
     rows = [json.loads(line) for line in file.read_text("utf-8").splitlines()] if file.exists() else []
-    done, pool = {row["seed"] for row in rows}, flights(given.out, given.vehicles, SECONDS)
+    done, pool = {row["seed"] for row in rows}, flights(given.out, given.vehicles, SECONDS, given.first_seed)
     for seed in range(given.first_seed, given.first_seed + given.draws):
         if seed not in done:
             rows.append(draw(seed, pool, given.out))

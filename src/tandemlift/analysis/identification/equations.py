@@ -22,7 +22,7 @@ from tandemlift.analysis.identification.sensor_errors import (
     robust_sd,
 )
 from tandemlift.analysis.identification.windows import FlightWindows, Places, Samples, Truths
-from tandemlift.analysis.logs.log import IMU, JOINTS
+from tandemlift.analysis.logs.log import IMU, JOINTS, swept
 from tandemlift.core.types import Array
 from tandemlift.engines.vehicle_unknowns import Unknowns
 
@@ -235,11 +235,9 @@ class Linearisation:
         for i, k in enumerate(range(place.start, place.stop)):
             full[:, STARTS + k, :, i] = 1.0
         if name == FORCE and self.priors.placed:
-            rates, unit = d.base[RATES][:, :-1], np.eye(3)
-            turning = np.gradient(d.base[RATES], span, axis=1)[:, :-1]
-            for i in range(3):
-                swept = np.cross(rates, np.cross(rates, unit[i]))
-                full[:, i - 3] = np.cross(turning, unit[i]) + swept
+            rates = d.base[RATES]
+            for i, unit in enumerate(np.eye(3), -3):
+                full[:, i] = swept(np.gradient(rates, span, axis=1), rates, unit)[:, :-1]
         if name in JOINTS and self.priors.joints:
             full[:, STARTS + B + moved : STARTS + B + moved + 3 * self.priors.joints] = by_turns(base)
         return full

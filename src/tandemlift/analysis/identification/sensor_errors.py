@@ -15,7 +15,7 @@ import numpy as np
 from tandemlift.analysis.identification.prediction import FORCES
 from tandemlift.analysis.identification.windows import Samples
 from tandemlift.analysis.logs.clocks import GROUPS
-from tandemlift.analysis.logs.log import JOINTS, conjugate, quaternion_product
+from tandemlift.analysis.logs.log import JOINTS, conjugate, quaternion_product, swept
 from tandemlift.core.types import Array
 from tandemlift.missions import SensorsTable
 
@@ -134,7 +134,7 @@ def residuals(
 def at_place(force: Array, rates: Array, place: Array, step: float) -> Array:
     """The specific force (…, n, 3) at a place (3) from where it is given, by rates (…, n, 3) every step [s]."""
     turning = np.diff(rates, axis=-2, append=2.0 * rates[..., -1:, :] - rates[..., -2:-1, :]) / step
-    return np.asarray(force + np.cross(turning, place) + np.cross(rates, np.cross(rates, place)))
+    return force + swept(turning, rates, place)
 
 
 def turned_axes(v: Array, turns: Array) -> Array:

@@ -239,8 +239,7 @@ def _check_commands(log: Log) -> None:
     """Refuse a log without commands, or with those of a rotor that never change."""
     if SPEED_COMMANDS not in log and COMMANDS not in log:
         raise InputError(f"{log.source}: has neither {SPEED_COMMANDS} nor {COMMANDS}; it has {', '.join(log)}")
-    name = SPEED_COMMANDS if SPEED_COMMANDS in log else COMMANDS
-    values = log[name].values
+    values = log[name := log.commands].values
     if len(values) > 1 and np.ptp(values, axis=0).min() == 0.0:
         rotor = int(np.argmin(np.ptp(values, axis=0)))
         raise InputError(f"{log.source}: {name}: column {rotor} is constant, {values[0, rotor]:g}: a dead channel")
@@ -248,9 +247,8 @@ def _check_commands(log: Log) -> None:
 
 def _speeds(log: Log, vehicle: VehicleTable) -> Stream:
     """The commanded speeds [rad/s]; of thrusts, by the vehicle's thrust constants."""
-    name = SPEED_COMMANDS if SPEED_COMMANDS in log else COMMANDS
     rotors = [q for q in vehicle.quadrotors for _ in range(4)]
-    time, values = log[name]
+    time, values = log[name := log.commands]
     most = np.array([q.max_speed for q in rotors])
     if name == COMMANDS:
         values = np.sqrt(np.maximum(values, 0.0) / [q.thrust_constant for q in rotors])

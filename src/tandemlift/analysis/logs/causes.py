@@ -20,7 +20,7 @@ from tandemlift.analysis.logs.corrections import NONE, MapCorrection, corrected,
 from tandemlift.analysis.logs.grid import thinned
 from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, SPEED_COMMANDS, Log, rotated, stream_channel
 from tandemlift.analysis.logs.maps import ROTATION_VECTOR, UNITS, factor_of
-from tandemlift.analysis.logs.stream_tests import KINDS, LAWS, OF_EACH, SURE, Fit, VehicleLaws
+from tandemlift.analysis.logs.stream_tests import KINDS, LAWS, OF_EACH, SURE, Fit, VehicleLaws, streams_of
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
@@ -72,20 +72,13 @@ def findings_of(laws: VehicleLaws, log: Log, first: Sequence[str] = ()) -> Itera
     """The table of all tests of a log, those of some laws first."""
     for names in (first, [name for name in laws.names if name not in first]):
         for name, fit in laws.fits(log, names):
-            yield from _of_law(name, ", ".join(_streams(log, name)), fit)
+            yield from _of_law(name, ", ".join(streams_of(name.split()[0], log)), fit)
         if names is first:
             yield from _of_means(laws, log)
 
 
-def _streams(log: Log, law: str) -> list[str]:
-    """The streams of a law in a log."""
-    commands = SPEED_COMMANDS if SPEED_COMMANDS in log else COMMANDS
-    return [commands if stream == COMMANDS else stream for stream in LAWS[law.split()[0]]]
-
-
 def _of_means(laws: VehicleLaws, log: Log) -> Iterator[StreamTest]:
     """What gravity tells of means."""
-    commands = SPEED_COMMANDS if SPEED_COMMANDS in log else COMMANDS
     constants = laws.constants(log)
     if "up" in constants:
         up = constants["up"]
@@ -109,7 +102,7 @@ def _of_means(laws: VehicleLaws, log: Log) -> Iterator[StreamTest]:
         )
     if "lift" in constants and np.isfinite(constants["lift"]).all():
         ratio = float(constants["lift"][0])
-        yield StreamTest(commands, "hover", f"{ratio:.3g} of the weight", "0.5 to 2", _verdict(0.5 < ratio < 2.0))
+        yield StreamTest(log.commands, "hover", f"{ratio:.3g} of the weight", "0.5 to 2", _verdict(0.5 < ratio < 2.0))
 
 
 def _verdict(good: bool) -> str:

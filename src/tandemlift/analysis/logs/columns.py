@@ -5,12 +5,19 @@ Readers use one direction. Corrections of a map undo what it did to a stream and
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
 
-from tandemlift.analysis.logs.log import MOTION, Stream, conjugate, quaternion_product, rotated, stream_channel
+from tandemlift.analysis.logs.log import (
+    MOTION,
+    Stream,
+    conjugate,
+    quaternion_product,
+    rotated,
+    rotation_vectors,
+    stream_channel,
+)
 from tandemlift.analysis.logs.maps import ROTATION_VECTOR, Way, factor_of
 from tandemlift.core.types import Array
 
@@ -68,9 +75,7 @@ def _z_up(values: Array, *, back: bool = False) -> Array:
 
 def turned_by(degrees: Sequence[float]) -> Array:
     """The quaternion of a rotation vector [deg]."""
-    half = 0.5 * np.radians(np.array(degrees, dtype=float))
-    size = float(np.linalg.norm(half))
-    return np.array([math.cos(size), *(half * np.sinc(size / np.pi))])
+    return quaternions_of(np.radians([degrees]), ROTATION_VECTOR)[0]
 
 
 def _turned(name: str, values: Array, q: Array) -> Array:
@@ -101,9 +106,7 @@ def angles_of(q: Array, kind: str) -> Array:
     Source: Bernardes and Viollet, Quaternion to Euler angles conversion, PLOS ONE 17 (2022).
     """
     if kind == ROTATION_VECTOR:
-        size = np.linalg.norm(q[:, 1:], axis=1)
-        angle = 2.0 * np.arctan2(size, np.abs(q[:, 0])) * np.where(q[:, 0] < 0.0, -1.0, 1.0)
-        return np.asarray(q[:, 1:] * (angle / np.maximum(size, 1e-300))[:, None])
+        return rotation_vectors(q)
     i, j, k = ("xyz".index(letter) for letter in (kind if kind.islower() else kind[::-1].lower()))
     is_proper, k = i == k, 3 - i - j
     sign = (i - j) * (j - k) * (k - i) / 2

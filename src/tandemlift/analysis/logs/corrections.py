@@ -6,7 +6,6 @@ correction that makes a log agree with physics is one that works when it is past
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
@@ -14,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tandemlift.analysis.logs.columns import columns_of, stream_of, turned_by
-from tandemlift.analysis.logs.log import MOTION, Log, Stream, conjugate, quaternion_product, rotated
+from tandemlift.analysis.logs.log import MOTION, Log, Stream, conjugate, quaternion_product, rotated, rotation_vectors
 from tandemlift.analysis.logs.maps import Way
 
 POSITION, VELOCITY, ATTITUDE = MOTION
@@ -89,9 +88,7 @@ class MapCorrection(NamedTuple):
         found |= {"power": self.power * own.get("power", 1.0)} if self.power != 1.0 else {}
         if any(self.turn):
             q = quaternion_product(turned_by(self.turn), turned_by(own.get("turn", NONE)))
-            size = float(np.linalg.norm(q[1:]))
-            angle = 2.0 * math.atan2(size, abs(q[0])) * (-1.0 if q[0] < 0.0 else 1.0)
-            found["turn"] = [round(math.degrees(float(x)) * angle / max(size, 1e-12), 2) + 0.0 for x in q[1:]]
+            found["turn"] = [round(x, 2) + 0.0 for x in np.degrees(rotation_vectors(q)).tolist()]
         found |= {"up": self.up} if self.up else {}
         found |= {"delay": round(own.get("delay", 0.0) + self.delay, 4)} if self.delay else {}
         found |= {"angles": self.angles} if self.angles else {}

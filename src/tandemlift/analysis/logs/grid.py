@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from tandemlift.analysis.logs.clocks import means_of
 from tandemlift.analysis.logs.log import (
     COMMANDS,
     IMU,
@@ -18,8 +19,7 @@ from tandemlift.analysis.logs.log import (
     SPEED_COMMANDS,
     Log,
     Stream,
-    conjugate,
-    quaternion_product,
+    turns,
 )
 from tandemlift.core.types import Array
 
@@ -145,11 +145,7 @@ class Grid:
         return self.known[key][0]
 
     def _mean(self, name: str) -> Array:
-        time, v = self.log[name]
-        areas = 0.5 * (v[1:] + v[:-1]) * np.diff(time)[:, None]
-        total = np.vstack([np.zeros(v.shape[1]), np.cumsum(areas, axis=0)])
-        at = np.stack([np.interp(self.edges, time, c) for c in total.T], axis=1)
-        return np.asarray(np.diff(at, axis=0) / CELL)
+        return means_of(self.log[name])(self.edges[:-1], self.edges[1:])
 
     def change(self, name: str) -> Array:
         """The change of a stream per second over the cells (count, width)."""
@@ -159,6 +155,11 @@ class Grid:
         time, v = self.log[name]
         at = np.stack([np.interp(self.edges, time, c) for c in v.T], axis=1)
         return self._bridged(name, np.diff(at, axis=0) / CELL)
+
+    @property
+    def turning(self) -> Array:
+        """The angular acceleration [rad/s²] by the gyroscope (count, 3)."""
+        return self._kept("turning", IMU[1], lambda name: np.gradient(self.mean(name), CELL, axis=0))
 
     @cached_property
     def attitudes(self) -> Array:
@@ -191,5 +192,4 @@ class Grid:
 
     def turn(self, q: Array) -> Array:
         """The rates [rad/s] of attitudes at the ends of the cells, body axes."""
-        change = quaternion_product(conjugate(q[:-1]), q[1:])
-        return self._bridged(ATTITUDE, 2.0 * change[:, 1:] * np.sign(change[:, :1]) / CELL)
+        return self._bridged(ATTITUDE, turns(q[:-1], q[1:]) / CELL)

@@ -21,8 +21,8 @@ hold in changes within `SLOW` only: a person's push is slower.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
-from typing import NamedTuple
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -33,11 +33,12 @@ from tandemlift.analysis.logs.log import (
     JOINTS,
     MOTION,
     PUSH,
-    SPEED_COMMANDS,
     Log,
     Stream,
     conjugate,
     rotated,
+    rotation_vectors,
+    swept,
 )
 from tandemlift.core.types import GRAVITY, Array
 from tandemlift.parts.mechanics.vehicle import Vehicle, mixer
@@ -120,7 +121,7 @@ class Fit(NamedTuple):
     turn_sd: float
 
 
-def fitted(y: Array, x: Array, good: Truths, noise: tuple[Array, Array], kind: LawKind) -> Fit | None:
+def fitted(y: Array, x: Array, good: Truths, noise: Sequence[Array], kind: LawKind) -> Fit | None:
     """The fit of y = A x, both (n, 3); None if the grid is too short.
 
     Args:
@@ -192,24 +193,14 @@ def _scales(a: Array, b: Array, noise: Array) -> Array:
 
 def _turn_of(a: Array, b: Array, rest: Array, own: float) -> tuple[Array, float]:
     """(The rotation vector [rad] that turns b into a at best, the largest standard deviation of its components)."""
-    U, _, V = np.linalg.svd(a.T @ b)
-    R = U @ np.diag([1.0, 1.0, np.linalg.det(U @ V)]) @ V
+    B = a.T @ b
+    sides = B[[2, 0, 1], [1, 2, 0]] - B[[1, 2, 0], [2, 0, 1]]
+    K = np.block([[np.trace(B), sides], [sides[:, None], B + B.T - np.trace(B) * np.eye(3)]])
+    turn = rotation_vectors(np.linalg.eigh(K)[1][:, -1])  # the quaternion of Davenport's method
     power = b.T @ b / len(b)
     information = (np.trace(power) * np.eye(3) - power) * own / max(float(np.mean(rest)), 1e-300)
     sd = math.sqrt(float(np.linalg.eigvalsh(np.linalg.inv(information + 1e-9 * np.eye(3)))[-1]))
-    return rotation_vector(R), sd
-
-
-def rotation_vector(R: Array) -> Array:
-    """The rotation vector [rad] of a rotation (3, 3)."""
-    values = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
-    angle = math.acos(min(max(0.5 * (float(np.trace(R)) - 1.0), -1.0), 1.0))
-    if math.sin(angle) > 1e-6:
-        return np.asarray(values * (angle / (2.0 * math.sin(angle))))
-    if angle < 1.0:
-        return np.zeros(3)
-    column = R[:, int(np.argmax(np.diag(R)))] + np.eye(3)[int(np.argmax(np.diag(R)))]
-    return np.asarray(angle * column / np.linalg.norm(column))
+    return turn, sd
 
 
 def _lag_of(y: Array, x: Array) -> tuple[float, float]:
@@ -243,6 +234,13 @@ LAWS = {
 """The streams of each law: those of y, then those of x. The last three are of each quadrotor, its number behind."""
 OF_EACH = ("side", "thrust", "torque")
 
+Sides = tuple[Array, Array, Array, Array]
+
+
+def streams_of(law: str, log: Log) -> list[str]:
+    """The streams of a law in a log."""
+    return [log.commands if stream == COMMANDS else stream for stream in LAWS[law]]
+
 
 class VehicleLaws:
     """The laws of a vehicle, fitted to logs.
@@ -265,32 +263,106 @@ class VehicleLaws:
 
     def fits(self, log: Log, names: Iterable[str] | None = None) -> Iterator[tuple[str, Fit | None]]:
         """The fit of each law whose streams the log has, by its name."""
-        commands = SPEED_COMMANDS if SPEED_COMMANDS in log else COMMANDS
         grid = Grid(log, self._means)
         for name in self.names if names is None else names:
             law, *number = name.split()
-            streams = LAWS[law]
-            own = [commands if stream == COMMANDS else stream for stream in streams]
+            own = streams_of(law, log)
             if all(stream in log for stream in own):
                 key = (name, *self.at, grid.begin, grid.count, *(x for stream in own for x in map(id, log[stream])))
                 if key not in self._known:
-                    self._known[key] = (
-                        getattr(self, f"_{law}")(grid, commands, *map(int, number)),
-                        [log[stream] for stream in own],
-                    )
+                    self._known[key] = self._fit(grid, law, own, *map(int, number)), [log[stream] for stream in own]
                 yield name, self._known[key][0]
 
-    def _turn(self, g: Grid, _: str) -> Fit | None:
-        c = 2 * g.cells
-        y, x = smoothed(g.turn(g.attitudes), c), smoothed(g.mean(RATES), c)
-        noise = g.noise(ATTITUDE, c, derivative=True), g.noise(RATES, c)
-        return fitted(y, x, g.there(c, ATTITUDE, RATES), noise, KINDS["turn"])
+    def _fit(self, g: Grid, law: str, own: Sequence[str], quadrotor: int = 0) -> Fit | None:
+        kind = KINDS[law]
+        c = round(kind.smooth / SMOOTH) * g.cells
+        good, thrusts = g.there(c, *own), np.zeros((g.count, 0))
+        if own[-1] == g.log.commands:
+            thrusts = self._thrusts(g)
+            good &= self._clear(g) if law in OF_EACH else self._flies(g, thrusts)
+        y, x, *noise = getattr(self, f"_{law}")(g, c, thrusts, quadrotor)
+        return fitted(smoothed(y, c), smoothed(x, c), good, noise, kind)
 
-    def _path(self, g: Grid, _: str) -> Fit | None:
-        c = 4 * g.cells
-        y, x = smoothed(g.change(POSITION), c), smoothed(g.mean(VELOCITY), c)
-        noise = g.noise(POSITION, c, derivative=True), g.noise(VELOCITY, c)
-        return fitted(y, x, g.there(c, POSITION, VELOCITY), noise, KINDS["path"])
+    # Of each law: y, x (count, 3), and the variances of the noise that smoothing over c cells leaves in both (3,).
+
+    def _turn(self, g: Grid, c: int, *_: Any) -> Sides:
+        return g.turn(g.attitudes), g.mean(RATES), g.noise(ATTITUDE, c, derivative=True), g.noise(RATES, c)
+
+    def _path(self, g: Grid, c: int, *_: Any) -> Sides:
+        return g.change(POSITION), g.mean(VELOCITY), g.noise(POSITION, c, derivative=True), g.noise(VELOCITY, c)
+
+    def _speed(self, g: Grid, c: int, *_: Any) -> Sides:
+        x, tilt = rotated(g.attitudes[:-1], self._felt(g)), g.noise(ATTITUDE, c) * GRAVITY**2 * ACROSS
+        return g.change(VELOCITY), x, g.noise(VELOCITY, c, derivative=True), g.noise(FORCE, c) + tilt
+
+    def _load(self, g: Grid, c: int, *_: Any) -> Sides:
+        whole, m = g.mean(JOINTS[0]).reshape(g.count, -1, 3).sum(axis=1), self.table.payload.mass
+        if {PUSH[0], ATTITUDE} <= {*g.log}:
+            whole = whole + rotated(conjugate(g.attitudes[:-1]), g.mean(PUSH[0]))
+        return whole, self._felt(g) * m, g.noise(JOINTS[0], c), g.noise(FORCE, c) * m**2
+
+    def _lever(self, g: Grid, c: int, *_: Any) -> Sides:
+        F, M = (g.mean(name).reshape(g.count, -1, 3) for name in JOINTS)
+        J, square = np.array(self.table.payload.moments), self.joints**2
+        noise = g.noise(JOINTS[1], c) + g.noise(JOINTS[0], c) / len(square) * (square.sum() - square.sum(axis=0))
+        y = (M + np.cross(self.joints, F)).sum(axis=1)
+        return y, g.turning * J, noise, g.noise(RATES, c, derivative=True) * J**2
+
+    def _lift(self, g: Grid, c: int, thrusts: Array, _: int) -> Sides:
+        x = thrusts.sum(axis=1)[:, None] / self.vehicle.mass * UPWARD
+        return self._felt(g) * UPWARD, x, g.noise(FORCE, c), np.zeros(3)
+
+    def _twist(self, g: Grid, c: int, thrusts: Array, _: int) -> Sides:
+        x = thrusts @ self.vehicle.effect[1:].T @ np.linalg.inv(self.vehicle.inertia).T
+        return g.turning, x, g.noise(RATES, c, derivative=True), np.zeros(3)
+
+    def _side(self, g: Grid, c: int, _: Array, i: int) -> Sides:
+        y, (x, noise) = g.mean(JOINTS[0])[:, 3 * i : 3 * i + 3], self._inertial(g, c, i)
+        return y * ACROSS, -x * ACROSS, g.noise(JOINTS[0], c), noise
+
+    def _thrust(self, g: Grid, c: int, thrusts: Array, i: int) -> Sides:
+        force, noise = self._inertial(g, c, i)
+        y, x = g.mean(JOINTS[0])[:, 3 * i : 3 * i + 3] + force, thrusts[:, 4 * i : 4 * i + 4].sum(axis=1)[:, None]
+        return y * UPWARD, x * UPWARD, g.noise(JOINTS[0], c) + noise, np.zeros(3)
+
+    def _torque(self, g: Grid, c: int, thrusts: Array, i: int) -> Sides:
+        q, (F, M) = self.table.quadrotors[i], (g.mean(name)[:, 3 * i : 3 * i + 3] for name in JOINTS)
+        d = np.subtract(q.joint_position, q.position)
+        y = M + np.cross(d, F) + g.turning @ np.array(q.tensor).T
+        noise = g.noise(JOINTS[1], c) + float(d @ d) * g.noise(JOINTS[0], c)
+        return y, thrusts[:, 4 * i : 4 * i + 4] @ mixer(q)[1:].T, noise, np.zeros(3)
+
+    def _inertial(self, g: Grid, c: int, i: int) -> tuple[Array, Array]:
+        """(Mass times specific force of a quadrotor [N] (count, 3), the variance of its noise (3,))."""
+        q = self.table.quadrotors[i]
+        r = np.array(q.position) - self.at
+        noise = g.noise(FORCE, c) + g.noise(RATES, c, derivative=True) * float(r @ r)
+        return q.mass * self._felt(g, r), q.mass**2 * noise
+
+    def _thrusts(self, g: Grid) -> Array:
+        u = g.mean(g.log.commands)
+        return u if g.log.commands == COMMANDS else u * u * self.thrust_constants
+
+    def _felt(self, g: Grid, r: Array | None = None) -> Array:
+        """The specific force at a place from the accelerometer's [m]; at the payload's origin, if none is given."""
+        r = -self.at if r is None else r
+        return g.mean(FORCE) + swept(g.turning, g.mean(RATES), r) if r.any() else g.mean(FORCE)
+
+    def _clear(self, g: Grid) -> Truths:
+        """Where the vehicle is clear of its lowest place, if it rose at all."""
+        if POSITION not in g.log:
+            return np.ones(g.count, bool)
+        z, radius = g.mean(POSITION)[:, 2], max(q.rotor_radius for q in self.table.quadrotors)
+        rise, width = float(np.ptp(z)), round(SLOW / CELL) | 1
+        if rise < 2.0 * radius:
+            return np.ones(g.count, bool)
+        low = (z < z.min() + 0.5 * rise).astype(float)
+        return np.asarray(np.convolve(low, np.ones(width), "same") < 0.5)  # nor within half of SLOW
+
+    def _flies(self, g: Grid, thrusts: Array) -> Truths:
+        """Where the thrusts carry the vehicle, and it is clear of the floor."""
+        lift = thrusts.sum(axis=1)
+        return self._clear(g) & (smoothed(lift[:, None], g.cells)[:, 0] > 0.5 * float(np.median(lift)))
 
     def frames(self, log: Log) -> dict[str, float]:
         """By how many units of log-likelihood velocities in other axes suit the position better, by the true frame."""
@@ -305,115 +377,6 @@ class VehicleLaws:
         own = 3.0 * good.sum() * CELL / (4.0 * SMOOTH)
         return {way: 0.5 * own * math.log((rests[""] + noise) / (rest + noise)) for way, rest in rests.items() if way}
 
-    def _speed(self, g: Grid, _: str) -> Fit | None:
-        c = 4 * g.cells
-        y, x = smoothed(g.change(VELOCITY), c), smoothed(rotated(g.attitudes[:-1], self._felt(g)), c)
-        tilt = g.noise(ATTITUDE, c) * GRAVITY**2 * [1.0, 1.0, 0.0]
-        noise = g.noise(VELOCITY, c, derivative=True), g.noise(FORCE, c) + tilt
-        return fitted(y, x, g.there(c, VELOCITY, FORCE, ATTITUDE), noise, KINDS["speed"])
-
-    def _load(self, g: Grid, _: str) -> Fit | None:
-        c, each = g.cells, g.mean(JOINTS[0])
-        whole = each.reshape(len(each), -1, 3).sum(axis=1)
-        if {PUSH[0], ATTITUDE} <= {*g.log}:
-            whole = whole + rotated(conjugate(g.attitudes[:-1]), g.mean(PUSH[0]))
-        y = smoothed(whole, c)
-        x = smoothed(self._felt(g), c) * self.table.payload.mass
-        noise = g.noise(JOINTS[0], c), g.noise(FORCE, c) * self.table.payload.mass**2
-        return fitted(y, x, g.there(c, JOINTS[0], FORCE), noise, KINDS["load"])
-
-    def _lever(self, g: Grid, _: str) -> Fit | None:
-        c = g.cells
-        F, M = (g.mean(name).reshape(g.count, -1, 3) for name in JOINTS)
-        y = smoothed((M + np.cross(self.joints, F)).sum(axis=1), c)
-        J = self.table.payload.moments
-        x = smoothed(np.gradient(g.mean(RATES), CELL, axis=0), c) * J
-        arm = np.sum(self.joints**2) - np.sum(self.joints**2, axis=0)
-        noise = (
-            g.noise(JOINTS[1], c) + g.noise(JOINTS[0], c) / len(self.joints) * arm,
-            g.noise(RATES, c, derivative=True) * np.square(J),
-        )
-        return fitted(y, x, g.there(c, RATES, *JOINTS), noise, KINDS["lever"])
-
-    def _thrusts(self, g: Grid, commands: str) -> Array:
-        u = g.mean(commands)
-        return u if commands == COMMANDS else u * u * self.thrust_constants
-
-    def _felt(self, g: Grid) -> Array:
-        """The specific force at the payload's origin."""
-        if not self.at.any():
-            return g.mean(FORCE)
-        w = g.mean(RATES)
-        turning = np.gradient(w, CELL, axis=0)
-        return g.mean(FORCE) - np.cross(turning, self.at) - np.cross(w, np.cross(w, self.at))
-
-    def _wrench(self, g: Grid, commands: str) -> Array:
-        return np.asarray(self._thrusts(g, commands) @ self.vehicle.effect.T)
-
-    def _clear(self, g: Grid) -> Truths:
-        """Where the vehicle is clear of its lowest place, if it rose at all."""
-        if POSITION not in g.log:
-            return np.ones(g.count, bool)
-        z, radius = g.mean(POSITION)[:, 2], max(q.rotor_radius for q in self.table.quadrotors)
-        rise, width = float(np.ptp(z)), round(SLOW / CELL) | 1
-        if rise < 2.0 * radius:
-            return np.ones(g.count, bool)
-        low = (z < z.min() + 0.5 * rise).astype(float)
-        return np.asarray(np.convolve(low, np.ones(width), "same") < 0.5)  # nor within half of SLOW
-
-    def _flies(self, g: Grid, lift: Array) -> Truths:
-        """Where the thrusts carry the vehicle, and it is clear of the floor."""
-        return self._clear(g) & (smoothed(lift[:, None], g.cells)[:, 0] > 0.5 * float(np.median(lift)))
-
-    def _lift(self, g: Grid, commands: str) -> Fit | None:
-        c, wrench = g.cells, self._wrench(g, commands)
-        none = np.zeros((g.count, 2))
-        y = np.hstack([none, smoothed(self._felt(g), c)[:, 2:]])
-        x = np.hstack([none, smoothed(wrench[:, :1] / self.vehicle.mass, c)])
-        noise = g.noise(FORCE, c), np.zeros(3)
-        return fitted(y, x, g.there(c, FORCE, commands) & self._flies(g, wrench[:, 0]), noise, KINDS["lift"])
-
-    def _twist(self, g: Grid, commands: str) -> Fit | None:
-        c, wrench = g.cells, self._wrench(g, commands)
-        y = smoothed(np.gradient(g.mean(RATES), CELL, axis=0), c)
-        x = smoothed(wrench[:, 1:] @ np.linalg.inv(self.vehicle.inertia).T, c)
-        noise = g.noise(RATES, c, derivative=True), np.zeros(3)
-        return fitted(y, x, g.there(c, RATES, commands) & self._flies(g, wrench[:, 0]), noise, KINDS["twist"])
-
-    def _inertial(self, g: Grid, i: int) -> tuple[Array, Array]:
-        """(Mass times specific force of a quadrotor [N] (count, 3), the variance of its noise (3,))."""
-        c, q, w = g.cells, self.table.quadrotors[i], g.mean(RATES)
-        r, turning = np.array(q.position) - self.at, np.gradient(w, CELL, axis=0)
-        force = q.mass * (g.mean(FORCE) + np.cross(turning, r) + np.cross(w, np.cross(w, r)))
-        return force, q.mass**2 * (g.noise(FORCE, c) + g.noise(RATES, c, derivative=True) * float(r @ r))
-
-    def _side(self, g: Grid, _: str, i: int) -> Fit | None:
-        c, (force, noise) = g.cells, self._inertial(g, i)
-        y = smoothed(g.mean(JOINTS[0])[:, 3 * i : 3 * i + 3] * ACROSS, c)
-        return fitted(
-            y,
-            smoothed(-force * ACROSS, c),
-            g.there(c, JOINTS[0], FORCE, RATES),
-            (g.noise(JOINTS[0], c), noise),
-            KINDS["side"],
-        )
-
-    def _thrust(self, g: Grid, commands: str, i: int) -> Fit | None:
-        c, (force, noise) = g.cells, self._inertial(g, i)
-        y = smoothed((g.mean(JOINTS[0])[:, 3 * i : 3 * i + 3] + force) * UPWARD, c)
-        x = smoothed(self._thrusts(g, commands)[:, 4 * i : 4 * i + 4].sum(axis=1)[:, None] * UPWARD, c)
-        good = g.there(c, JOINTS[0], FORCE, RATES, commands) & self._clear(g)
-        return fitted(y, x, good, (g.noise(JOINTS[0], c) + noise, np.zeros(3)), KINDS["thrust"])
-
-    def _torque(self, g: Grid, commands: str, i: int) -> Fit | None:
-        c, q, w = g.cells, self.table.quadrotors[i], g.mean(RATES)
-        F, M = (g.mean(name)[:, 3 * i : 3 * i + 3] for name in JOINTS)
-        d, J = np.subtract(q.joint_position, q.position), np.array(q.tensor)
-        y = smoothed(M + np.cross(d, F) + np.gradient(w, CELL, axis=0) @ J.T, c)
-        x = smoothed(self._thrusts(g, commands)[:, 4 * i : 4 * i + 4] @ mixer(q)[1:].T, c)
-        noise = g.noise(JOINTS[1], c) + float(d @ d) * g.noise(JOINTS[0], c), np.zeros(3)
-        return fitted(y, x, g.there(c, *JOINTS, RATES, commands) & self._clear(g), noise, KINDS["torque"])
-
     def place(self, log: Log) -> tuple[Array, Array] | None:
         """(Where the accelerometer is, from the payload's origin [m], body axes; standard deviations), by the motion.
 
@@ -427,9 +390,7 @@ class VehicleLaws:
         if good.sum() < FEWEST:
             return None
         seen = smoothed(g.mean(FORCE) - rotated(back, g.change(VELOCITY) + GRAVITY * UPWARD), c)
-        w = g.mean(RATES)
-        turning = np.gradient(w, CELL, axis=0)
-        columns = [smoothed(np.cross(turning, e) + np.cross(w, np.cross(w, e)), c) for e in np.eye(3)]
+        columns = [smoothed(swept(g.turning, g.mean(RATES), e), c) for e in np.eye(3)]
         y = quick(seen, 4.0)[good].ravel()
         X = np.stack([quick(column, 4.0)[good].ravel() for column in columns], axis=1)
         gram = X.T @ X + 1e-12 * np.eye(3)
@@ -448,10 +409,9 @@ class VehicleLaws:
         if {FORCE, JOINTS[0]} <= {*log}:
             each = g.mean(JOINTS[0]).reshape(g.count, -1, 3)
             found["load"] = each.mean(axis=0) / (self.table.payload.mass * GRAVITY)
-        commands = SPEED_COMMANDS if SPEED_COMMANDS in log else COMMANDS
-        if {FORCE, commands} <= {*log}:
-            lift = self._wrench(g, commands)[:, 0]
-            flies = self._flies(g, lift)
+        if {FORCE, log.commands} <= {*log}:
+            thrusts = self._thrusts(g)
+            flies, lift = self._flies(g, thrusts), thrusts.sum(axis=1)
             ratio = float(np.mean(lift[flies])) / (self.vehicle.mass * GRAVITY) if flies.sum() > FEWEST else np.nan
             stands = ratio < 0.5 and bool(self._clear(g).all())
             found["lift"] = np.array([np.nan if stands else ratio])
