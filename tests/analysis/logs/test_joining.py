@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from tandemlift.analysis.logs.corrections import MapCorrection, corrected, in_words
 from tandemlift.analysis.logs.joining import clock_against, joined
 from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, SPEED_COMMANDS, Log, Stream
 from tandemlift.core.errors import InputError
@@ -75,6 +76,25 @@ def test_quadrotors_of_two_logs_become_columns_on_one_clock(recorders):
     inside = (time > 5.0) & (time < 25.0)
     assert np.abs(values - np.sin(np.outer(time, np.arange(1.0, 7.0))))[inside].max() < 3e-3
     assert [note.split(":")[0] for note in one.notes] == ["right", "tracker"]
+
+
+def test_a_mistake_in_a_joined_log_is_said_in_the_words_of_the_map_of_each(recorders):
+    """Both logs are read by one map; quadrotors in another order are logs in another order."""
+    way = {"columns": ["m1", "m2", "m3", "m4"], "unit": "rpm"}
+    left, right, _ = (replace(log, ways={SPEED_COMMANDS: way, RATES: {"columns": [*"pqr"]}}) for log in recorders)
+    one = joined([left, right])
+    assert one.ways[RATES] == {"columns": [*"pqr"]}
+
+    def said(order=(), **keys):
+        return in_words([MapCorrection(SPEED_COMMANDS, order, **keys)], one)
+
+    assert said(unit="rad/s") == '[rotor_speed_commands] unit = "rad/s"'
+    assert said((4, 5, 6, 7, 0, 1, 2, 3)) == '[rotor_speed_commands] topic = ["right", "left"]'
+    assert said((1, 0, 2, 3, 5, 4, 6, 7)) == '[rotor_speed_commands] columns = ["m2", "m1", "m3", "m4"]'
+    swapped = corrected(one, [MapCorrection(SPEED_COMMANDS, (4, 5, 6, 7, 0, 1, 2, 3))])[SPEED_COMMANDS].values
+    assert swapped == pytest.approx(np.roll(one[SPEED_COMMANDS].values, 4, axis=1))
+    other = replace(right, ways={SPEED_COMMANDS: way | {"unit": "rad/s"}})
+    assert SPEED_COMMANDS not in joined([left, other]).ways
 
 
 def test_resets_of_the_estimate_are_those_of_the_log_that_gives_the_motion(recorders):

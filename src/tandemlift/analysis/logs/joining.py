@@ -7,8 +7,9 @@ autopilot logs for its own quadrotor become columns side by side, in the order o
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -40,7 +41,8 @@ def joined(logs: Sequence[Log]) -> Log:
             quadrotors in the order of the logs.
 
     Returns:
-        The log, with a note of offset and drift of each other clock and their intervals.
+        The log, with a note of offset and drift of each other clock and their intervals. Its ways are those of the
+        logs; of columns side by side that of one log, with the logs for topics.
 
     Raises:
         InputError: a log lacks these, or its turn is not that of the first.
@@ -52,14 +54,21 @@ def joined(logs: Sequence[Log]) -> Log:
         clock = clock_against(first, other)
         every.append(other.aligned([*other], clock.offset, clock.drift, clock.about))
         notes += [*other.notes, f"{other.source}: on the clock of {first.source}: {clock}"]
-    streams = dict[str, Stream]()
+    streams, ways = dict[str, Stream](), dict[str, Mapping[str, Any]]()
     for name in dict.fromkeys(name for log in every for name in log):
-        own = [log[name] for log in every if name in log]
-        streams[name] = _beside(own, held=name not in JOINTS) if name in OF_QUADROTORS and len(own) > 1 else own[0]
+        own = [log for log in every if name in log]
+        if name not in OF_QUADROTORS:
+            del own[1:]
+        streams[name] = _beside([log[name] for log in own], held=name not in JOINTS) if own[1:] else own[0][name]
+        way, width = own[0].ways.get(name, {}), streams[name].values.shape[1]
+        if not own[1:]:
+            ways[name] = way
+        elif all(log.ways.get(name) == way for log in own) and len(own) * len(way["columns"]) == width:
+            ways[name] = {**way, "topic": [log.source for log in own]}
     source = " and ".join(log.source for log in logs)
     estimates = [next((log.breaks for log in every if name in log), ()) for name in MOTION]
     breaks = tuple(sorted({t for own in estimates for t in own}))
-    return replace(first, streams=streams, source=source, notes=tuple(notes), ways={}, breaks=breaks)
+    return replace(first, streams=streams, source=source, notes=tuple(notes), ways=ways, breaks=breaks)
 
 
 def clock_against(first: Log, other: Log) -> SourceClock:
