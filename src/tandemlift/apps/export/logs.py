@@ -194,7 +194,8 @@ def _log(path: Path, tables: LogTables, ways: Mapping[str, list[Way]], asked: Co
     told = [reset for name, one in found.items() for reset in _counted(name, one, tables, first)]
     notes = dict.fromkeys((*tables.notes, *(note for one in found.values() for note in one.notes)))
     used = {name: one.way.model_dump(exclude_unset=True) for name, one in found.items()}
-    streams = {name: Stream(stream.time - first, stream.values) for name, stream in streams.items()}
+    for stream in streams.values():
+        stream.time[:] -= first  # its own array: a large log has no memory for another one
     log = Log(streams, str(path), ways=used)
     return with_resets(replace(log, notes=(*notes, *gaps(log))), told)
 
@@ -263,6 +264,8 @@ def _part(place: str, way: Way, tables: LogTables, topic: str) -> tuple[Stream, 
     _check_units(place, way, tables)
     own = [column(name) for name in way.columns]
     rows = own[0] if len(own) == 1 and own[0].ndim == 2 else np.column_stack([v.reshape(len(v), -1) for v in own])
+    del own
+    tables.taken(topic, way.columns)
     some = np.isfinite(rows[:, 0])
     for v in rows.T[1:]:
         some |= np.isfinite(v)
