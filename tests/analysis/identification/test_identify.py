@@ -17,7 +17,7 @@ from tandemlift.analysis.identification.sensor_errors import sensor_priors
 from tandemlift.analysis.identification.windows import windows_of
 from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, Log, Stream, log_of, quaternion_product
 from tandemlift.core.errors import InputError
-from tandemlift.engines.vehicle_unknowns import driven_numbers, unknowns_of
+from tandemlift.engines.vehicle_unknowns import UNLIKE, driven_numbers, unknowns_of
 from tandemlift.missions import load_mission
 from tandemlift.pictures.report.identification_report import draw_estimates, write_identification
 
@@ -268,14 +268,18 @@ def test_the_estimate_is_that_of_scipy_on_a_plain_model(log):
         data[name] = s.step[s.window == 0], s.values.reshape(len(w.first), -1, s.values.shape[1])
     starts = Predictor(w, unknowns_of(start.vehicle, start.actuators.delay), start).starts()
     nominal = [q[0].thrust_constant, q[1].thrust_constant, q[0].torque_per_thrust]
-    priors = [0.3] * 3 + [0.1] * 3 + [0.02] * 3 + [0.03] * 3
+    priors = [0.3] * 3 + [UNLIKE] + [0.1] * 3 + [0.02] * 3 + [0.03] * 3
     plain = PlainVehicle(tl.Vehicle.from_settings(start.vehicle), w.step)
-    logs, sd = fitted(plain, cut, data, starts, np.array(nominal), ours.details["noise"], priors)
-    for i, key in enumerate([*(f"vehicle.quadrotors.{k}.thrust_constant" for k in (0, 1)), keys[1]]):
-        row = ours[key]  # of the torques the mean, which the plain model shares
-        assert np.log(row.value / row.start) == pytest.approx(logs[i], abs=0.3 * sd[i]), row.key
-        if i < 2:
-            assert row.half * np.sqrt(row.efficiency) == pytest.approx(1.96 * sd[i] * row.value, rel=0.15), row.key
+    logs, covariance = fitted(plain, cut, data, starts, np.array(nominal), ours.details["noise"], priors)
+    off = np.sqrt(0.5)  # of the two torques from what they share
+    every = {key.replace("*", str(i)): [i == 0, i == 1, 0, 0] for i in (0, 1) for key in keys[:1]}
+    every |= {key.replace("*", str(i)): [0, 0, 1, (off, -off)[i]] for i in (0, 1) for key in keys[1:]}
+    every[keys[1]] = [0, 0, 1, 0]
+    for key, along in every.items():
+        row, way = ours[key], np.array([*along, *[0.0] * (len(logs) - 4)], float)
+        sd = np.sqrt(way @ covariance @ way)
+        assert np.log(row.value / row.start) == pytest.approx(way @ logs, abs=0.3 * sd), key
+        assert row.half * np.sqrt(row.efficiency) == pytest.approx(1.96 * sd * row.value, rel=0.15), key
 
 
 def test_a_calm_hover_excites_no_drag_and_says_so(log):
