@@ -1,13 +1,15 @@
 """Logs that physics contradicts are refused with the true cause, and what the message says to write mends them."""
 
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from mistaken_maps import pasted
 
 import tandemlift as tl
-from tandemlift.analysis.logs.causes import check_streams
+from tandemlift.analysis.logs.causes import candidates, check_streams
 from tandemlift.analysis.logs.columns import turned_by
 from tandemlift.analysis.logs.corrections import MapCorrection, corrected
 from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, SPEED_COMMANDS, Stream, log_of, quaternion_product
@@ -217,3 +219,23 @@ def test_the_laws_of_a_vehicle_are_those_of_the_flight_that_it_made(log, vehicle
     for number in (0, 1):
         assert fits[f"thrust {number}"].scale[2] == pytest.approx(0.9, abs=0.1)
         assert fits[f"torque {number}"].lag == pytest.approx(0.01 + 0.016, abs=0.006)
+
+
+def test_every_cause_has_a_row_of_the_page_of_refused_logs(log, vehicle):
+    page = (Path(__file__).parents[3] / "docs" / "how-to" / "my-log-is-refused.md").read_text("utf-8")
+    table = page.partition("It seems to be … |")[2].partition("| it says |")[0]
+    cells = [line[2:].split(" | ")[0] for line in table.splitlines() if line.startswith("| ")]
+    known = [re.compile(".*".join(map(re.escape, cell.split("…")))) for cell in cells]
+    maps = [
+        {},
+        {ATTITUDE: {"columns": [*"abc"], "angles": "xyz", "up": "y", "turn": (9.0, 0.0, 0.0)}, RATES: {"scale": 2.0}},
+        {VELOCITY: {"columns": [*"abc"], "frame": "body"}, RATES: {"columns": [*"abc"], "unit": "deg/s"}},
+    ]
+    said = {
+        cause.words
+        for ways in maps
+        for cause in candidates(late(replace(log, ways=ways), 0.05, *MOTION), VehicleLaws(vehicle), log)
+    }
+    assert len(said) > 100
+    assert [words for words in said if not any(one.match(words) for one in known)] == []
+    assert [one.pattern for one in known if not any(map(one.match, said))] == []
