@@ -205,6 +205,40 @@ def test_biases_that_walk_within_a_window_widen_the_intervals(log):
     assert 0.75 < np.std(off) < 1.25
 
 
+def thrust_at(times, log, delay, k, up, down):
+    """Thrust [N] of all rotors at increasing times [s], by the closed form of a lag between delayed commands."""
+    time, speeds = log["rotor_speed_commands"]
+    speed, since, j, found = speeds[0], time[0] + delay, 0, []
+
+    def after(span):
+        return speeds[j] + (speed - speeds[j]) * np.exp(-span / np.where(speeds[j] > speed, up, down))
+
+    for at in times:
+        while j + 1 < len(time) and time[j + 1] + delay <= at + 1e-9:
+            speed, since, j = after(time[j + 1] + delay - since), time[j + 1] + delay, j + 1
+        found.append(k * np.sum(after(at - since) ** 2))
+    return np.array(found)
+
+
+def test_a_joint_of_a_simulated_flight_reads_the_thrust_of_half_a_step_later(flight):
+    """A step of 1 ms has one thrust, its mean; so what is stamped t is of t + 0.5 ms.
+
+    The joints' sum along z is a share of the thrust at an instant, by the closed form of the rotors' lag, and of what
+    moves (rates, their change, the velocity). The share of the thrust's change over that of the thrust is the shift.
+    """
+    step, some = 1e-3, (flight.time > BEGIN + 1.0) & (flight.time < BEGIN + 5.0)
+    own = (TRUTH[f"vehicle.quadrotors.0.{name}"] for name in ("thrust_constant", "lag_up", "lag_down"))
+    thrust = thrust_at(flight.time, log_of(flight), TRUTH["actuators.delay"], *own)
+    w = flight["rates"]
+    turning, slope = (np.diff(v, axis=0, append=v[-1:]) / step for v in (w, thrust))
+    moved = np.column_stack([np.ones(len(w)), w, w * w, w * np.roll(w, 1, axis=1), turning, flight["velocity"]])
+    X = np.column_stack([thrust, slope, moved])[some]
+    y = flight["joint_force"].reshape(len(w), -1, 3).sum(axis=1)[some, 2]
+    (share, by_slope, *_), (rest,), *_ = np.linalg.lstsq(X, y, rcond=None)
+    assert rest < 1e-6 * np.sum((y - y.mean()) ** 2)
+    assert by_slope / share == pytest.approx(0.5 * step, rel=0.05)
+
+
 @pytest.mark.thorough
 def test_outliers_gaps_and_clocks_of_their_own_change_little(log, found):
     """Offsets and drifts of the sources' clocks are found beside the vehicle; the correlation does not see 1.3 ms."""
@@ -220,7 +254,7 @@ def test_outliers_gaps_and_clocks_of_their_own_change_little(log, found):
     joints, motion = ([n for n in bad if any(part in n for part in names)] for names in (("joint",), MOTION))
     bad = bad.aligned(joints, 1.3e-3, 2e-5, 20.0).aligned(motion, -0.7e-3, -3e-5, 20.0)
     again = tl.identify(bad, START, weighed=WEIGHED, predict=log.between(22.0, 30.0), window=0.8, **SILENT)
-    ahead = 0.5e-3  # in a simulated flight the thrust of a step is held: a reading has that of half a step later
+    ahead = 0.5e-3  # what the joints of a simulated flight read early, as the test above has it
     assert again.details["clocks"]["measured_joint_force"] == pytest.approx(-1.3e-3 + ahead, abs=2e-4)
     assert again.details["clocks"]["measured_position"] == pytest.approx(0.7e-3, abs=3e-4)
     assert all(0.8 < ratio < 1.5 for ratio in again.details["predicted"]["ratio"].values())
@@ -357,8 +391,9 @@ def test_bad_input_is_named(log):
     commands = log["rotor_speed_commands"]
     swapped = Stream(commands.time, np.roll(commands.values, 4, axis=1))
     other_order = Log({**log, "rotor_speed_commands": swapped}, "blind")
-    with pytest.raises(InputError, match=r"blind: .*contradict|blind: .*No single change|blind: .*10 times"):
-        tl.identify(log, "paper", **SILENT)
+    moments = "blind: stream measured_rates, rotor_speed_commands: the angular acceleration .*: scale .* y 0.0"
+    with pytest.raises(InputError, match=f"{moments}.*No single change .*: .* no log of about such a vehicle"):
+        tl.identify(log, "paper", **SILENT)  # whose rotors stand along and across the beam
     with pytest.raises(InputError, match=r"of quadrotors in the order 1, 0: \[rotor_speed_commands\] columns = "):
         tl.identify(other_order, START, **SILENT)
     dead = Log(

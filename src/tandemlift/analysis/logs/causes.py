@@ -19,7 +19,7 @@ from tandemlift.analysis.logs.columns import turned_by
 from tandemlift.analysis.logs.corrections import NONE, MapCorrection, corrected, in_words, width_of
 from tandemlift.analysis.logs.grid import thinned
 from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, SPEED_COMMANDS, Log, rotated, stream_channel
-from tandemlift.analysis.logs.maps import ROTATION_VECTOR, UNITS, factor_of
+from tandemlift.analysis.logs.maps import ROTATION_VECTOR, TIME_UNITS, UNITS, factor_of
 from tandemlift.analysis.logs.stream_tests import KINDS, LAWS, OF_EACH, SURE, Fit, VehicleLaws, streams_of
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
@@ -194,7 +194,8 @@ def check_streams(log: Log, table: VehicleTable) -> Streams:
     causes = causes_of(log, laws, wrong)
     if not causes:
         others = "".join(f"; {one.test}: {one.found}" for one in wrong[1:3])
-        raise InputError(f"{said}{others}. No single change of the map makes it agree")
+        why = "it has several mistakes, or is no log of about such a vehicle"
+        raise InputError(f"{said}{others}. No single change of the map makes it agree: {why}")
     cause = causes[0]
     raise InputError(f"{said}. It seems to be {cause.words}: {in_words(cause.corrections, log)}")
 
@@ -202,10 +203,12 @@ def check_streams(log: Log, table: VehicleTable) -> Streams:
 def _check_spans(log: Log) -> None:
     """Refuse a stream whose stamps last a thousand times as long as those of others, or that lies apart from them."""
     spans = {name: float(stream.time[-1] - stream.time[0]) for name, stream in log.items() if len(stream.time) > 1}
+    if not spans:
+        return
     usual = float(np.median([*spans.values()]))
     for name, span in spans.items():
         given = log.ways.get(name, {}).get("time_unit", "s")
-        for unit in ("s", "ms", "us", "ns"):
+        for unit in TIME_UNITS:
             ratio = factor_of(unit) / factor_of(given) * span / max(usual, 1e-12)
             if unit != given and 0.5 < ratio < 2.0 and not 0.05 < span / usual < 20.0:
                 raise InputError(

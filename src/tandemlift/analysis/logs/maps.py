@@ -50,6 +50,7 @@ UNITS = {
     "ns": ("s", 1e-9),
 }
 """Units that columns may have beside those of streams: for which of these, and the factor."""
+TIME_UNITS = ("s", *(unit for unit, (of, _) in UNITS.items() if of == "s"))
 SPELT = {"°/s": "deg/s", "dps": "deg/s", "°": "deg", "degrees": "deg", "m/s/s": "m/s^2", "m/s2": "m/s^2", "µs": "us"}
 """Other spellings of units in tables."""
 

@@ -17,12 +17,11 @@ import numpy as np
 
 from tandemlift.analysis.logs.checks import acceleration
 from tandemlift.analysis.logs.clocks import GAP, means_of
-from tandemlift.analysis.logs.log import IMU, MOTION, Log, Stream, turns
+from tandemlift.analysis.logs.log import IMU, MOTION, Log, Stream, stream_channel, turns
 from tandemlift.core.types import Array
 
 POSITION, VELOCITY, ATTITUDE = MOTION
 LEAST = {POSITION: 0.05, VELOCITY: 0.15, ATTITUDE: 0.035}  # m, m/s, rad: less is noise
-UNITS = {POSITION: (1.0, "m"), VELOCITY: (1.0, "m/s"), ATTITUDE: (180.0 / np.pi, "°")}
 OFTEN = 0.02  # of the samples: more steps are noise
 UNUSUAL = 15.0  # standard deviations of the usual difference
 FEWEST = 20  # samples
@@ -39,8 +38,9 @@ class Reset(NamedTuple):
     size: float
 
     def __str__(self) -> str:
-        factor, unit = UNITS[self.name]
-        of = f"{factor * self.size:.3g}{'' if unit == '°' else ' '}{unit}" if np.isfinite(self.size) else "unknown size"
+        is_turn, unit = self.name == ATTITUDE, stream_channel(self.name).unit
+        of = f"{np.degrees(self.size):.3g}°" if is_turn else f"{self.size:.3g} {unit}"
+        of = of if np.isfinite(self.size) else "unknown size"
         return f"{self.name} at {self.time:.4g} s by {of}"
 
 
