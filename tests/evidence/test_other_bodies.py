@@ -1,5 +1,7 @@
 """Bodies that SciPy integrates: the laws of logs hold for them, mistaken maps are told, and unlike quadrotors found."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from identify_unlike_vehicles import compared, holds
@@ -8,7 +10,10 @@ from other_body import drawn, flown, log_of
 
 import tandemlift as tl
 from tandemlift.analysis.logs.causes import check_streams
-from tandemlift.core.errors import without_flight_warnings
+from tandemlift.analysis.logs.grid import thinned
+from tandemlift.analysis.logs.log import JOINTS, Stream
+from tandemlift.analysis.logs.stream_tests import VehicleLaws
+from tandemlift.core.errors import InputError, without_flight_warnings
 
 pytestmark = [pytest.mark.filterwarnings("ignore::tandemlift.FlightWarning"), pytest.mark.thorough]
 
@@ -31,6 +36,20 @@ def test_right_logs_of_one_to_four_unlike_quadrotors_are_not_refused(count):
     agrees = [one for one in table if one.verdict == "agrees"]
     assert len(agrees) == len([one for one in table if one.verdict != "not told"])
     assert len(agrees) >= 8 + 2 * count
+
+
+def test_the_sign_of_a_torque_about_the_beam_is_told_by_the_arm_of_the_joint(pairs):
+    """Thrusts hardly tell it: quadrotors pitch with the beam. The torque is that of the joint's own force."""
+    changes, flights = pairs
+    log, vehicle = log_of(flights[0], 250.0, 3), start_of(changes[0]).vehicle
+    time, values = log[JOINTS[1]]
+    wrong = replace(log, streams={**log.streams, JOINTS[1]: Stream(time, values * [1, -1, 1, 1, 1, 1])})
+    with pytest.raises(InputError, match=r"the other sign along y at quadrotor 0: \[measured_joint_torque\] scale"):
+        check_streams(wrong, vehicle)
+    fits = dict(VehicleLaws(vehicle).fits(thinned(log)))
+    for number in (0, 1):
+        assert fits[f"arm {number}"].scale[1] == pytest.approx(1.0, abs=0.15)
+        assert fits[f"arm {number}"].told.tolist() == [False, True, False]
 
 
 @pytest.mark.parametrize("seed", range(41000, 41008))

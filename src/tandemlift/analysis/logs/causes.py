@@ -29,6 +29,8 @@ POSITION, VELOCITY, ATTITUDE = MOTION
 FORCE, RATES = IMU
 LEANS = 10.0  # deg that the mean specific force may be off the vertical
 NOTHING, ALIKE = 0.3, 0.6  # correlation below which two streams have nothing in common; from which a lag is told
+OF_ROTORS = ("rpm", "1")  # units in which programs have the speeds of rotors
+EXACT = 0.03  # that a scale may be off after a correction, where the law is exact
 STILL_TOLD = 0.5  # standard deviation of a scale, up to which a law tells something
 AWAY = 0.15  # m from the payload's origin that an accelerometer may be, which the centre of mass may be off, too
 LIKELIER = 12.0  # units of log-likelihood
@@ -47,6 +49,7 @@ MEANINGS = {
     "twist": "the angular acceleration against that of the commanded thrusts",
     "side": "the joint's force across against the quadrotor's mass times its acceleration",
     "thrust": "the joint's force and the quadrotor's mass times its acceleration against its commanded thrusts",
+    "arm": "the joint's torque against the moment of its force about the quadrotor",
     "torque": "the joint's torque and the quadrotor's inertia times its turn against the moments of its thrusts",
 }
 
@@ -129,12 +132,13 @@ def _of_law(name: str, streams: str, fit: Fit | None) -> Iterator[StreamTest]:
         good = least - SURE * fit.lag_sd < fit.lag < most + SURE * fit.lag_sd
         found = f"late by {round(1e3 * fit.lag)} ms"
         yield StreamTest(streams, f"lag of {test}", found, f"{1e3 * least:.0f} to {1e3 * most:.0f} ms", _verdict(good))
-    angle, sd = math.degrees(float(np.linalg.norm(fit.turn))), math.degrees(fit.turn_sd)
-    if kind.turn < math.inf and sd < 0.6 * kind.turn:
-        good = angle < kind.turn + SURE * sd
-        yield StreamTest(
-            streams, f"axes of {test}", f"{axis_and_angle(fit.turn)}", f"within {kind.turn:g}°", _verdict(good)
-        )
+    known = np.degrees(fit.turn_sd) < 0.6 * kind.turn
+    if kind.turn < math.inf and known.any():
+        turn = fit.turn * known
+        angle = float(np.linalg.norm(turn))
+        sd = float(np.linalg.norm(turn * fit.turn_sd)) / max(angle, 1e-12)
+        good = math.degrees(angle - SURE * sd) < kind.turn
+        yield StreamTest(streams, f"axes of {test}", axis_and_angle(turn), f"within {kind.turn:g}°", _verdict(good))
 
 
 def away(laws: VehicleLaws, log: Log) -> Array | None:
@@ -240,6 +244,10 @@ def causes_of(log: Log, laws: VehicleLaws, wrong: Sequence[StreamTest]) -> list[
         if any(one.verdict == "contradicts" for one in findings_of(laws, other, first)):
             continue
         fits = dict(laws.fits(other))
+        if (turn := fits.get("turn")) is not None and np.any(
+            turn.told & (np.abs(turn.scale - 1.0) > EXACT + 2.0 * turn.scale_sd)
+        ):
+            continue  # the turn of the attitude is the gyroscope's, whatever the mission
         if all((fit := fits.get(name)) is not None and fit.scale_sd.min() < STILL_TOLD for name in before):
             rare = RARE * any(one.unit in ("lbf ft", "lbf in", "cm/s", "km/h") for one in cause.corrections)
             found.append((_unexplained(fits) + rare, number, cause))
@@ -318,7 +326,7 @@ def candidates(log: Log, laws: VehicleLaws, concerned: Iterable[str]) -> Iterato
     if {*MOTION} & {*concerned}:
         yield from _attitudes(log, laws)
     if {*JOINTS} & {*concerned}:
-        yield from _joints(log)
+        yield from _joints(log, laws)
     for name in (COMMANDS, SPEED_COMMANDS):
         if name in concerned:
             yield from _commands(name, log[name].values.shape[1])
@@ -332,7 +340,7 @@ def _units(log: Log, concerned: Sequence[str]) -> Iterator[Cause]:
         own, way = stream_channel(name).unit, log.ways.get(name, {})
         given = way.get("unit", "1")
         for unit in ("1", *(unit for unit, (other, _) in UNITS.items() if other == own)):
-            if unit not in (given, own):
+            if unit not in (given, own) and not (name == SPEED_COMMANDS and unit not in OF_ROTORS):
                 words = f"in {own} already" if unit == "1" else f"in {unit}"
                 yield Cause(words, (MapCorrection(name, unit=unit),))
         if np.any(np.abs(way.get("scale", 1.0)) != 1.0):
@@ -455,9 +463,15 @@ def _angles(log: Log) -> Iterator[Cause]:
             yield Cause(f'angles "{angles}"', (one._replace(angles=angles),))
 
 
-def _joints(log: Log) -> Iterator[Cause]:
+def _joints(log: Log, laws: VehicleLaws) -> Iterator[Cause]:
     """Other signs, quadrotors and axes of the joints' sensors."""
     there = [name for name in JOINTS if name in log]
+    sides = [fit for name, fit in laws.fits(log) if name.startswith("side") and fit is not None]
+    if sides:
+        turn = -min(sides, key=lambda fit: fit.turn_sd[2]).turn
+        words = f"of axes that are {axis_and_angle(turn)} against the accelerometer's"
+        given = tuple(np.degrees(turn).tolist())
+        yield Cause(words, tuple(MapCorrection(name, turn=given) for name in there))
     count = log[there[0]].values.shape[1] // 3
     groups = [[name] for name in there] + ([there] if len(there) > 1 else [])
     for group in groups:

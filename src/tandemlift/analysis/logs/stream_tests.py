@@ -10,6 +10,7 @@ sides of a law that holds for every rigid vehicle,
     Σ (M + r × F) of the joints     =  J α + m c × f                                   (body axes)
     a joint's force                 =  thrusts of its quadrotor − m · accelerometer there (body axes)
     M + d × F + J α of a quadrotor  =  moments of its thrusts                          (body axes)
+    M less what goes with J α and with these moments = −d × F, less the same           (body axes)
     accelerometer                   =  sum of the thrusts over the mass                (z)
     angular acceleration            =  J⁻¹ B thrusts                                   (body axes)
 
@@ -53,6 +54,9 @@ CLEAR = 8.0  # times the noise's square: a signal
 PART = 1.0  # s
 SURE = 5.0  # standard deviations
 TOLD = 0.12  # standard deviation of a scale that is known
+PLAIN = 1e-3  # of the sum of squares: weight of no turn at all, where the motion does not tell one
+LEFT = 0.3  # of the moments of thrusts, that what they do not explain must be to be told from their errors
+STILL = 0.01  # rad/s, below which a vehicle may stand
 
 ACROSS, UPWARD = np.array([1.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0])
 
@@ -67,6 +71,7 @@ class LawKind(NamedTuple):
         lags: the least and the largest lag [s].
         turn: the largest angle [deg] between the axes of both sides; none is told of pushed ones.
         pushed: whether what is not measured, as a push, acts on it.
+        told: standard deviation of a scale that is known.
     """
 
     scales: tuple[float, float]
@@ -75,6 +80,7 @@ class LawKind(NamedTuple):
     lags: tuple[float, float] = (-0.012, 0.012)
     turn: float = math.inf
     pushed: bool = False
+    told: float = TOLD
 
 
 KINDS = {
@@ -85,9 +91,10 @@ KINDS = {
     "lever": LawKind((0.4, 2.5), SLOW, SMOOTH, pushed=True),
     "lift": LawKind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
     "twist": LawKind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
-    "side": LawKind((0.4, 2.5), SLOW, SMOOTH, pushed=True),
+    "side": LawKind((0.4, 2.5), SLOW, SMOOTH, turn=20.0, pushed=True),
     "thrust": LawKind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
     "torque": LawKind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
+    "arm": LawKind((0.4, 2.5), SLOW, SMOOTH, pushed=True, told=0.1),
 }
 
 
@@ -105,7 +112,7 @@ class Fit(NamedTuple):
         off: whether the scale is beyond what is allowed, in every third of a log that may be pushed (3,).
         left: the part of the square of y that x leaves, with scales that are allowed (3,).
         turn: the rotation vector [rad] by which x must be turned to agree with y (3,).
-        turn_sd: the largest standard deviation of its components [rad].
+        turn_sd: the standard deviations of its components [rad] (3,); large ones are of turns that are not told.
     """
 
     lag: float
@@ -118,7 +125,7 @@ class Fit(NamedTuple):
     off: Truths
     left: Array
     turn: Array
-    turn_sd: float
+    turn_sd: Array
 
 
 def fitted(y: Array, x: Array, good: Truths, noise: Sequence[Array], kind: LawKind) -> Fit | None:
@@ -160,7 +167,7 @@ def fitted(y: Array, x: Array, good: Truths, noise: Sequence[Array], kind: LawKi
         own_scale = _scales(p, q, noise[1])
         own_sd = np.sqrt(np.mean((p - q * own_scale) ** 2, axis=0) / power / (own / 3.0))
         off &= _beyond(own_scale, own_sd, kind) | (own_sd > 2.0 * TOLD)
-    told = (scale_sd < TOLD) & (power_x > 3.0 * noise[1])
+    told = (scale_sd < kind.told) & (power_x > 3.0 * noise[1])
     left = np.mean((a - b * np.clip(scale, *kind.scales)) ** 2, axis=0) / np.maximum(power_y, 1e-300)
     slope = np.mean(np.gradient(a, CELL, axis=0) ** 2, axis=0)
     whole = np.mean((a - b @ A.T) ** 2, axis=0)
@@ -191,16 +198,15 @@ def _scales(a: Array, b: Array, noise: Array) -> Array:
     return np.array(found)
 
 
-def _turn_of(a: Array, b: Array, rest: Array, own: float) -> tuple[Array, float]:
-    """(The rotation vector [rad] that turns b into a at best, the largest standard deviation of its components)."""
-    B = a.T @ b
+def _turn_of(a: Array, b: Array, rest: Array, own: float) -> tuple[Array, Array]:
+    """(The rotation vector [rad] that turns b into a at best, the standard deviations of its components)."""
+    B = a.T @ b + PLAIN * float(np.linalg.norm(a.T @ b)) * np.eye(3)
     sides = B[[2, 0, 1], [1, 2, 0]] - B[[1, 2, 0], [2, 0, 1]]
     K = np.block([[np.trace(B), sides], [sides[:, None], B + B.T - np.trace(B) * np.eye(3)]])
     turn = rotation_vectors(np.linalg.eigh(K)[1][:, -1])  # the quaternion of Davenport's method
     power = b.T @ b / len(b)
     information = (np.trace(power) * np.eye(3) - power) * own / max(float(np.mean(rest)), 1e-300)
-    sd = math.sqrt(float(np.linalg.eigvalsh(np.linalg.inv(information + 1e-9 * np.eye(3)))[-1]))
-    return turn, sd
+    return turn, np.sqrt(np.diag(np.linalg.inv(information + 1e-9 * np.eye(3))))
 
 
 def _lag_of(y: Array, x: Array) -> tuple[float, float]:
@@ -230,9 +236,10 @@ LAWS = {
     "side": (JOINTS[0], FORCE, RATES),
     "thrust": (JOINTS[0], FORCE, RATES, COMMANDS),
     "torque": (JOINTS[1], JOINTS[0], RATES, COMMANDS),
+    "arm": (JOINTS[1], JOINTS[0], RATES, COMMANDS),
 }
-"""The streams of each law: those of y, then those of x. The last three are of each quadrotor, its number behind."""
-OF_EACH = ("side", "thrust", "torque")
+"""The streams of each law: those of y, then those of x. The last four are of each quadrotor, its number behind."""
+OF_EACH = ("side", "thrust", "torque", "arm")
 
 Sides = tuple[Array, Array, Array, Array]
 
@@ -274,6 +281,8 @@ class VehicleLaws:
                 yield name, self._known[key][0]
 
     def _fit(self, g: Grid, law: str, own: Sequence[str], quadrotor: int = 0) -> Fit | None:
+        if g.count < FEWEST:
+            return None
         kind = KINDS[law]
         c = round(kind.smooth / SMOOTH) * g.cells
         good, thrusts = g.there(c, *own), np.zeros((g.count, 0))
@@ -326,11 +335,27 @@ class VehicleLaws:
         return y * UPWARD, x * UPWARD, g.noise(JOINTS[0], c) + noise, np.zeros(3)
 
     def _torque(self, g: Grid, c: int, thrusts: Array, i: int) -> Sides:
+        M, lever, turning, T, arm = self._moments(g, thrusts, i)
+        noise = g.noise(JOINTS[1], c) + float(arm @ arm) * g.noise(JOINTS[0], c)
+        return M + lever + turning, T, noise, np.zeros(3)
+
+    def _arm(self, g: Grid, c: int, thrusts: Array, i: int) -> Sides:
+        M, lever, turning, T, arm = self._moments(g, thrusts, i)
+        good, y, x = g.there(c, *JOINTS, RATES, g.log.commands) & self._clear(g), np.zeros_like(M), np.zeros_like(M)
+        for a in range(3 * (int(good.sum()) > FEWEST)):
+            every = np.stack([M[:, a], -lever[:, a], turning[:, a], T[:, a], np.gradient(T[:, a])], axis=1)
+            sides, others = np.split(quick(smoothed(every, c), SLOW)[good], [2], axis=1)
+            share = np.linalg.lstsq(others, sides, rcond=1e-9)[0]
+            rest = sides[:, 1] - others @ share[:, 1]
+            if np.mean(rest**2) > LEFT**2 * np.mean(others[:, 1] ** 2):  # more than what thrusts are uncertain by
+                y[:, a], x[:, a] = (every[:, :2] - every[:, 2:] @ share).T
+        return y, x, g.noise(JOINTS[1], c), float(arm @ arm) * g.noise(JOINTS[0], c)
+
+    def _moments(self, g: Grid, thrusts: Array, i: int) -> tuple[Array, Array, Array, Array, Array]:
+        """(M, d × F, J α and the thrusts' moments of a quadrotor [N m] (count, 3), d [m])."""
         q, (F, M) = self.table.quadrotors[i], (g.mean(name)[:, 3 * i : 3 * i + 3] for name in JOINTS)
-        d = np.subtract(q.joint_position, q.position)
-        y = M + np.cross(d, F) + g.turning @ np.array(q.tensor).T
-        noise = g.noise(JOINTS[1], c) + float(d @ d) * g.noise(JOINTS[0], c)
-        return y, thrusts[:, 4 * i : 4 * i + 4] @ mixer(q)[1:].T, noise, np.zeros(3)
+        d, T = np.subtract(q.joint_position, q.position), thrusts[:, 4 * i : 4 * i + 4] @ mixer(q)[1:].T
+        return M, np.cross(d, F), g.turning @ np.array(q.tensor).T, T, d
 
     def _inertial(self, g: Grid, c: int, i: int) -> tuple[Array, Array]:
         """(Mass times specific force of a quadrotor [N] (count, 3), the variance of its noise (3,))."""
@@ -413,6 +438,7 @@ class VehicleLaws:
             thrusts = self._thrusts(g)
             flies, lift = self._flies(g, thrusts), thrusts.sum(axis=1)
             ratio = float(np.mean(lift[flies])) / (self.vehicle.mass * GRAVITY) if flies.sum() > FEWEST else np.nan
-            stands = ratio < 0.5 and bool(self._clear(g).all())
+            turns = float(np.sqrt(np.mean(smoothed(g.mean(RATES), g.cells) ** 2))) if RATES in log else 0.0
+            stands = ratio < 0.5 and bool(self._clear(g).all()) and turns < STILL
             found["lift"] = np.array([np.nan if stands else ratio])
         return found
