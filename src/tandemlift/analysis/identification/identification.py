@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
@@ -63,7 +64,7 @@ class Identification:
         remarks: what the data could not tell, in sentences.
         details: what the page shows beside these: `identification.json` has it.
 
-    A row is found by its key; one with an asterisk is the mean of those of all quadrotors.
+    A row is found by its key; one with an asterisk is the mean of those of all quadrotors, without an efficiency.
     """
 
     mission: Mission
@@ -80,7 +81,7 @@ class Identification:
             rows, alike = [self.rows[i] for i in own], np.array(self.details["correlation"])[np.ix_(own, own)]
             value, halves = float(np.mean([row.value for row in rows])), np.array([row.half for row in rows])
             half = float(np.sqrt(max(halves @ alike @ halves, 0.0))) / len(rows)
-            return rows[0]._replace(key=key, value=value, low=value - half, high=value + half)
+            return rows[0]._replace(key=key, value=value, low=value - half, high=value + half, efficiency=math.nan)
         raise KeyError(f"{key} was not identified; {', '.join(row.key for row in (*self.rows, *self.whole))} were")
 
     def __repr__(self) -> str:

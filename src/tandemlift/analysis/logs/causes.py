@@ -320,7 +320,7 @@ def candidates(log: Log, laws: VehicleLaws, concerned: Iterable[str]) -> Iterato
         yield Cause(
             f"along {'world' if given else 'body'} axes", (MapCorrection(VELOCITY, frame="world" if given else "body"),)
         )
-    if {*IMU} & {*concerned}:
+    if {*IMU} & {*concerned} and {*IMU} <= {*log}:
         for order, signs in ROTATIONS:
             yield Cause(f"of an IMU {_axes(order, signs)}", tuple(_mapped(name, 3, order, signs) for name in IMU))
     if {*MOTION} & {*concerned}:

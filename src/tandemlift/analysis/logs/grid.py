@@ -28,6 +28,8 @@ CELL = 0.01  # s of the grid
 SMOOTH = 0.05  # s, half the width of the triangle
 LONGEST = 120.0  # s of a log that are looked at
 SPIKE = 15.0  # times the usual distance of a sample from the middle of its neighbours
+OFTEN = 0.2  # of the samples: more are no spikes
+LEAST = 1e-6  # rad, m, N and so on: noise that no sensor is below; what moves less is the rounding of a simulation
 GAP = 0.06  # s: a longer one is left out
 SELDOM = 5.0  # s: resets of the estimate that are more frequent are none, but a wrong stream
 
@@ -51,12 +53,15 @@ def quick(v: Array, slow: float) -> Array:
 
 
 def without_spikes(stream: Stream) -> Stream:
-    """The samples that are not far off the middle of their neighbours, measured by the median of all."""
+    """The samples that are not far off the middle of their neighbours, measured by the median of all.
+
+    All of them, if many are: a stream without noise that stood still for half of the log, and then moved.
+    """
     off = np.zeros_like(stream.values)
     off[1:-1] = np.abs(stream.values[1:-1] - 0.5 * (stream.values[:-2] + stream.values[2:]))
     usual = np.median(off, axis=0)
     kept = np.all((off <= SPIKE * usual) | (usual == 0.0), axis=1)
-    return Stream(stream.time[kept], stream.values[kept])
+    return stream if kept.mean() < 1.0 - OFTEN else Stream(stream.time[kept], stream.values[kept])
 
 
 def thinned(log: Log) -> Log:
@@ -187,7 +192,7 @@ class Grid:
         each = 1.4826 * np.median(np.abs(np.diff(v, 2, axis=0)), axis=0) / math.sqrt(6.0) if len(v) > 2 else 0.0 * v[0]
         if name == ATTITUDE:
             each = np.full(3, 2.0 * math.sqrt(float(np.sum(each**2)) / 3.0))
-        square = np.sum(np.square(each).reshape(-1, 3), axis=0)
+        square = np.sum(np.square(np.maximum(each, LEAST)).reshape(-1, 3), axis=0)
         return np.append(square, np.median(np.diff(time)) if len(time) > 1 else 1.0)
 
     def turn(self, q: Array) -> Array:
