@@ -136,7 +136,7 @@ def _of_law(name: str, streams: str, fit: Fit | None) -> Iterator[StreamTest]:
     if kind.turn < math.inf and known.any():
         turn = fit.turn * known
         angle = float(np.linalg.norm(turn))
-        sd = float(np.linalg.norm(turn * fit.turn_sd)) / max(angle, 1e-12)
+        sd = float(np.linalg.norm(turn[known] * fit.turn_sd[known])) / max(angle, 1e-12)
         good = math.degrees(angle - SURE * sd) < kind.turn
         yield StreamTest(streams, f"axes of {test}", axis_and_angle(turn), f"within {kind.turn:g}°", _verdict(good))
 

@@ -54,7 +54,6 @@ CLEAR = 8.0  # times the noise's square: a signal
 PART = 1.0  # s
 SURE = 5.0  # standard deviations
 TOLD = 0.12  # standard deviation of a scale that is known
-PLAIN = 1e-3  # of the sum of squares: weight of no turn at all, where the motion does not tell one
 LEFT = 0.3  # of the moments of thrusts, that what they do not explain must be to be told from their errors
 STILL = 0.01  # rad/s, below which a vehicle may stand
 
@@ -200,13 +199,14 @@ def _scales(a: Array, b: Array, noise: Array) -> Array:
 
 def _turn_of(a: Array, b: Array, rest: Array, own: float) -> tuple[Array, Array]:
     """(The rotation vector [rad] that turns b into a at best, the standard deviations of its components)."""
-    B = a.T @ b + PLAIN * float(np.linalg.norm(a.T @ b)) * np.eye(3)
-    sides = B[[2, 0, 1], [1, 2, 0]] - B[[1, 2, 0], [2, 0, 1]]
-    K = np.block([[np.trace(B), sides], [sides[:, None], B + B.T - np.trace(B) * np.eye(3)]])
-    turn = rotation_vectors(np.linalg.eigh(K)[1][:, -1])  # the quaternion of Davenport's method
-    power = b.T @ b / len(b)
+    power, B = b.T @ b / len(b), a.T @ b
     information = (np.trace(power) * np.eye(3) - power) * own / max(float(np.mean(rest)), 1e-300)
-    return turn, np.sqrt(np.diag(np.linalg.inv(information + 1e-9 * np.eye(3))))
+    sd = np.sqrt(np.diag(np.linalg.inv(information + 1e-9 * np.eye(3))))
+    sides = B[[2, 0, 1], [1, 2, 0]] - B[[1, 2, 0], [2, 0, 1]]
+    if not power[2, 2]:  # in the plane of x and y
+        return np.array([0.0, 0.0, math.atan2(sides[2], np.trace(B))]), np.where([False, False, True], sd, np.inf)
+    K = np.block([[np.trace(B), sides], [sides[:, None], B + B.T - np.trace(B) * np.eye(3)]])
+    return rotation_vectors(np.linalg.eigh(K)[1][:, -1]), sd  # of the quaternion of Davenport's method
 
 
 def _lag_of(y: Array, x: Array) -> tuple[float, float]:
