@@ -20,7 +20,7 @@ from tandemlift.analysis.logs.corrections import NONE, MapCorrection, corrected,
 from tandemlift.analysis.logs.grid import thinned
 from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, SPEED_COMMANDS, Log, rotated, stream_channel
 from tandemlift.analysis.logs.maps import ROTATION_VECTOR, TIME_UNITS, UNITS, factor_of
-from tandemlift.analysis.logs.stream_tests import KINDS, LAWS, OF_EACH, SURE, Fit, VehicleLaws, streams_of
+from tandemlift.analysis.logs.stream_tests import KINDS, OF_EACH, SURE, Fit, VehicleLaws, streams_of
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 from tandemlift.parts.mechanics.vehicle_table import VehicleTable
@@ -84,61 +84,56 @@ def _of_means(laws: VehicleLaws, log: Log) -> Iterator[StreamTest]:
     """What gravity tells of means."""
     constants = laws.constants(log)
     if "up" in constants:
-        up = constants["up"]
-        angle = math.degrees(math.acos(min(max(up[2] / np.linalg.norm(up), -1.0), 1.0)))
-        good = angle < LEANS and 0.85 < float(np.linalg.norm(up)) < 1.15
-        axis = int(np.argmax(np.abs(up)))
-        size = float(np.linalg.norm(up))
+        up, size = constants["up"], float(np.linalg.norm(constants["up"]))
+        angle, axis = math.degrees(math.acos(min(max(up[2] / size, -1.0), 1.0))), int(np.argmax(np.abs(up)))
+        good = angle < LEANS and 0.85 < size < 1.15
         found = f"{up[axis]:+.2f} g along {'xyz'[axis]} of the world, {angle:.0f}° off z"
         found = f"{size:.2f} g: it seems to be without gravity" if size < 0.05 else found
-        yield StreamTest(f"{FORCE}, {ATTITUDE}", "gravity", found, "+1 g along z", _verdict(good))
+        yield _tried(f"{FORCE}, {ATTITUDE}", "gravity", found, "+1 g along z", good)
     if "load" in constants:
         whole = constants["load"].sum(axis=0)
         flat = float(np.linalg.norm(whole[:2]))
         good = -0.5 < float(whole[2]) < 2.5 and flat < 0.8
         found = f"{whole[2]:+.2f} of the payload's weight along z, {flat:.2f} across"
-        yield StreamTest(JOINTS[0], "weight", found, "1, or 0 after a tare; 0 across", _verdict(good))
+        yield _tried(JOINTS[0], "weight", found, "1, or 0 after a tare; 0 across", good)
     for way, better in laws.frames(log).items():
         found = f"along {way} axes it suits the position better by {better:+.0f}"
-        yield StreamTest(
-            VELOCITY, f"frame of the velocity, if {way}", found, f"below {LIKELIER:g}", _verdict(better < LIKELIER)
-        )
+        yield _tried(VELOCITY, f"frame of the velocity, if {way}", found, f"below {LIKELIER:g}", better < LIKELIER)
     if "lift" in constants and np.isfinite(constants["lift"]).all():
         ratio = float(constants["lift"][0])
-        yield StreamTest(log.commands, "hover", f"{ratio:.3g} of the weight", "0.5 to 2", _verdict(0.5 < ratio < 2.0))
+        yield _tried(log.commands, "hover", f"{ratio:.3g} of the weight", "0.5 to 2", 0.5 < ratio < 2.0)
 
 
-def _verdict(good: bool) -> str:
-    return "agrees" if good else "contradicts"
+def _tried(stream: str, test: str, found: str, expected: str, good: bool) -> StreamTest:
+    return StreamTest(stream, test, found, expected, "agrees" if good else "contradicts")
 
 
 def _of_law(name: str, streams: str, fit: Fit | None) -> Iterator[StreamTest]:
     law, *number = name.split()
     kind, test = KINDS[law], f"{MEANINGS[law]}{f', quadrotor {number[0]}' if number else ''}"
     low, high = kind.scales
+    exact = law in ("turn", "path")
     if fit is None or not fit.told.any():
-        exact = law in ("turn", "path")
         if fit is not None and exact and np.any(fit.moves & (fit.left > 0.7)):
             yield StreamTest(streams, test, "nothing in common", "equal", "contradicts")
         else:
             yield StreamTest(streams, test, "hardly moved", "", "not told")
         return
-    off = [i for i in range(3) if fit.told[i] and fit.off[i]]
-    apart = [i for i in range(3) if law in ("turn", "path") and fit.moves[i] and fit.left[i] > 0.8]
+    off, apart = np.flatnonzero(fit.told & fit.off), np.flatnonzero(exact & fit.moves & (fit.left > 0.8))
     shown = ", ".join(f"{'xyz'[i]} {fit.scale[i]:.2f}" for i in range(3) if fit.told[i] or i in apart)
-    yield StreamTest(streams, test, f"scale {shown}", f"{low:g} to {high:g}", _verdict(not off and not apart))
+    yield _tried(streams, test, f"scale {shown}", f"{low:g} to {high:g}", not len(off) + len(apart))
     least, most = kind.lags
-    if fit.alike > ALIKE and not off:
+    if fit.alike > ALIKE and not len(off):
         good = least - SURE * fit.lag_sd < fit.lag < most + SURE * fit.lag_sd
         found = f"late by {round(1e3 * fit.lag)} ms"
-        yield StreamTest(streams, f"lag of {test}", found, f"{1e3 * least:.0f} to {1e3 * most:.0f} ms", _verdict(good))
+        yield _tried(streams, f"lag of {test}", found, f"{1e3 * least:.0f} to {1e3 * most:.0f} ms", good)
     known = np.degrees(fit.turn_sd) < 0.6 * kind.turn
     if kind.turn < math.inf and known.any():
         turn = fit.turn * known
         angle = float(np.linalg.norm(turn))
         sd = float(np.linalg.norm(turn[known] * fit.turn_sd[known])) / max(angle, 1e-12)
         good = math.degrees(angle - SURE * sd) < kind.turn
-        yield StreamTest(streams, f"axes of {test}", axis_and_angle(turn), f"within {kind.turn:g}°", _verdict(good))
+        yield _tried(streams, f"axes of {test}", axis_and_angle(turn), f"within {kind.turn:g}°", good)
 
 
 def away(laws: VehicleLaws, log: Log) -> Array | None:
@@ -356,7 +351,7 @@ def _late(log: Log, laws: VehicleLaws, concerned: Sequence[str]) -> Iterator[Cau
     for group in groups:
         lags = set[float]()
         for name, fit in fits.items():
-            streams = LAWS[name.split()[0]]
+            streams = KINDS[name.split()[0]].streams
             if fit is None or name.split()[0] in OF_EACH:
                 continue
             if {*streams[:1]} & {*group} or (name == "lever" and {*JOINTS} & {*group}):

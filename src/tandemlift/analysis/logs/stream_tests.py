@@ -61,40 +61,44 @@ ACROSS, UPWARD = np.array([1.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0])
 
 
 class LawKind(NamedTuple):
-    """What is expected of a law.
+    """A law, and what is expected of it.
 
     Attributes:
+        streams: those of y, then those of x.
         scales: the least and the largest scale.
         slow: time [s] over which changes count.
         smooth: half the width of its smoothing [s].
         lags: the least and the largest lag [s].
-        turn: the largest angle [deg] between the axes of both sides; none is told of pushed ones.
+        turn: the largest angle [deg] between the axes of both sides.
         pushed: whether what is not measured, as a push, acts on it.
         told: standard deviation of a scale that is known.
     """
 
-    scales: tuple[float, float]
-    slow: float
-    smooth: float
+    streams: tuple[str, ...]
+    scales: tuple[float, float] = (0.4, 2.5)
+    slow: float = SLOW
+    smooth: float = SMOOTH
     lags: tuple[float, float] = (-0.012, 0.012)
     turn: float = math.inf
-    pushed: bool = False
+    pushed: bool = True
     told: float = TOLD
 
 
+ROTORS = (-0.012, 0.16)  # s, of lags behind commands
 KINDS = {
-    "turn": LawKind((0.8, 1.25), 4.0, 2.0 * SMOOTH, turn=5.0),
-    "path": LawKind((0.8, 1.25), 20.0, 4.0 * SMOOTH, turn=15.0),
-    "speed": LawKind((0.6, 1.6), 4.0, 4.0 * SMOOTH, turn=15.0),
-    "load": LawKind((0.4, 2.5), SLOW, SMOOTH, pushed=True),
-    "lever": LawKind((0.4, 2.5), SLOW, SMOOTH, pushed=True),
-    "lift": LawKind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
-    "twist": LawKind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
-    "side": LawKind((0.4, 2.5), SLOW, SMOOTH, turn=20.0, pushed=True),
-    "thrust": LawKind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
-    "torque": LawKind((0.4, 2.5), SLOW, SMOOTH, lags=(-0.012, 0.16), pushed=True),
-    "arm": LawKind((0.4, 2.5), SLOW, SMOOTH, pushed=True, told=0.1),
+    "turn": LawKind((ATTITUDE, RATES), (0.8, 1.25), 4.0, 2.0 * SMOOTH, turn=5.0, pushed=False),
+    "path": LawKind((POSITION, VELOCITY), (0.8, 1.25), 20.0, 4.0 * SMOOTH, turn=15.0, pushed=False),
+    "speed": LawKind((VELOCITY, FORCE, ATTITUDE), (0.6, 1.6), 4.0, 4.0 * SMOOTH, turn=15.0, pushed=False),
+    "load": LawKind((JOINTS[0], FORCE)),
+    "lever": LawKind((*JOINTS, RATES)),
+    "lift": LawKind((FORCE, COMMANDS), lags=ROTORS),
+    "twist": LawKind((RATES, COMMANDS), lags=ROTORS),
+    "side": LawKind((JOINTS[0], FORCE, RATES), turn=20.0),
+    "thrust": LawKind((JOINTS[0], FORCE, RATES, COMMANDS), lags=ROTORS),
+    "torque": LawKind((JOINTS[1], JOINTS[0], RATES, COMMANDS), lags=ROTORS),
+    "arm": LawKind((JOINTS[1], JOINTS[0], RATES, COMMANDS), told=0.1),
 }
+OF_EACH = ("side", "thrust", "torque", "arm")  # of each quadrotor, its number behind
 
 
 class Fit(NamedTuple):
@@ -225,28 +229,12 @@ def _lag_of(y: Array, x: Array) -> tuple[float, float]:
     return CELL * lag, math.sqrt(min(max(float(alike[best]), 0.0), 1.0))
 
 
-LAWS = {
-    "turn": (ATTITUDE, RATES),
-    "path": (POSITION, VELOCITY),
-    "speed": (VELOCITY, FORCE, ATTITUDE),
-    "load": (JOINTS[0], FORCE),
-    "lever": (*JOINTS, RATES),
-    "lift": (FORCE, COMMANDS),
-    "twist": (RATES, COMMANDS),
-    "side": (JOINTS[0], FORCE, RATES),
-    "thrust": (JOINTS[0], FORCE, RATES, COMMANDS),
-    "torque": (JOINTS[1], JOINTS[0], RATES, COMMANDS),
-    "arm": (JOINTS[1], JOINTS[0], RATES, COMMANDS),
-}
-"""The streams of each law: those of y, then those of x. The last four are of each quadrotor, its number behind."""
-OF_EACH = ("side", "thrust", "torque", "arm")
-
 Sides = tuple[Array, Array, Array, Array]
 
 
 def streams_of(law: str, log: Log) -> list[str]:
     """The streams of a law in a log."""
-    return [log.commands if stream == COMMANDS else stream for stream in LAWS[law]]
+    return [log.commands if stream == COMMANDS else stream for stream in KINDS[law].streams]
 
 
 class VehicleLaws:
@@ -263,7 +251,7 @@ class VehicleLaws:
         self.at = np.zeros(3)  # m from the payload's origin: the accelerometer
         count = len(table.quadrotors)
         self.names = [
-            name for law in LAWS for name in ([f"{law} {i}" for i in range(count)] if law in OF_EACH else [law])
+            name for law in KINDS for name in ([f"{law} {i}" for i in range(count)] if law in OF_EACH else [law])
         ]
         self._means = dict[tuple[object, ...], tuple[Array, Stream]]()
         self._known = dict[tuple[object, ...], tuple[Fit | None, list[Stream]]]()  # streams are kept: ids stay theirs

@@ -7,6 +7,7 @@ theirs stream by stream.
 
 from __future__ import annotations
 
+import functools
 import math
 import os
 from collections import defaultdict
@@ -266,9 +267,7 @@ def _part(place: str, way: Way, tables: LogTables, topic: str) -> tuple[Stream, 
     rows = own[0] if len(own) == 1 and own[0].ndim == 2 else np.column_stack([v.reshape(len(v), -1) for v in own])
     del own
     tables.taken(topic, way.columns)
-    some = np.isfinite(rows[:, 0])
-    for v in rows.T[1:]:
-        some |= np.isfinite(v)
+    some = functools.reduce(np.logical_or, map(np.isfinite, rows.T))
     time, notes = _stamps(place, way, tables, topic, some)
     some &= np.isfinite(time)
     for name, allowed in way.where.items():
