@@ -173,7 +173,7 @@ def assumptions_of(search: VehicleSearch) -> list[tuple[str, str]]:
     unknowns = search.unknowns.unknowns
     unlike = dict.fromkeys(u.key for u in unknowns if u.weights)
     own = dict.fromkeys(u.kind.field for u in unknowns if len(u.quadrotors) == 1 and u.kind.each)
-    fixed = [key for key in DEFAULT if key not in {_starred(u.key) for u in unknowns}]
+    fixed = [key for key in DEFAULT if key not in {re.sub(r"\.\d+\.", ".*.", u.key) for u in unknowns}]
     table = search.parts[0].predictor.mission
     found = [
         (", ".join(unlike), f"each quadrotor its own, about one that they share: a prior of {UNLIKE:.0%} between them"),
@@ -192,10 +192,6 @@ def assumptions_of(search: VehicleSearch) -> list[tuple[str, str]]:
         ("accelerometer", "at a place that is estimated" if search.priors.placed else "at the payload's origin"),
     ]
     return [(subject, said) for subject, said in found if subject]
-
-
-def _starred(key: str) -> str:
-    return re.sub(r"\.\d+\.", ".*.", key)
 
 
 def remarks_on(

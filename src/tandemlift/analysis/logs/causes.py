@@ -311,10 +311,8 @@ def candidates(log: Log, laws: VehicleLaws, concerned: Iterable[str]) -> Iterato
             for order, signs in MISTAKES:
                 yield Cause(_axes(order, signs), (_mapped(name, 3, order, signs),))
     if VELOCITY in concerned and ATTITUDE in log:
-        given = log.ways.get(VELOCITY, {}).get("frame", "")
-        yield Cause(
-            f"along {'world' if given else 'body'} axes", (MapCorrection(VELOCITY, frame="world" if given else "body"),)
-        )
+        other = "world" if log.ways.get(VELOCITY, {}).get("frame") else "body"
+        yield Cause(f"along {other} axes", (MapCorrection(VELOCITY, frame=other),))
     if {*IMU} & {*concerned} and {*IMU} <= {*log}:
         for order, signs in ROTATIONS:
             yield Cause(f"of an IMU {_axes(order, signs)}", tuple(_mapped(name, 3, order, signs) for name in IMU))

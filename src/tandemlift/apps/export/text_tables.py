@@ -207,8 +207,7 @@ def read_table(path: Path, wanted: Iterable[str], settings: Any, kind: str = "")
     Raises:
         InputError: a line has another length, a cell that is asked for is no number, or there is none.
     """
-    uses, encoding = Counter(wanted), encoding_of(path)
-    asked = [*uses]
+    encoding, uses, asked = encoding_of(path), Counter(wanted := [*wanted]), [*dict.fromkeys(wanted)]
     try:
         with path.open(encoding=encoding, errors="replace" if encoding == "cp1252" else None, newline="") as file:
             head = [line.rstrip("\r\n") for line in itertools.islice(file, HEAD)]
@@ -238,8 +237,7 @@ def read_table(path: Path, wanted: Iterable[str], settings: Any, kind: str = "")
 
     notes = [f"{path}: read as Windows' cp1252, since it is not UTF-8"] * (encoding == "cp1252")
     notes += [f"{path}: read with a decimal comma"] * (layout.decimal == "," and settings.decimal is None)
-    table = LogTables([""], lambda _: names, lambda _, name: columns[name], units=layout.units, notes=tuple(notes))
-    return table._replace(taken=taken)
+    return LogTables([""], lambda _: names, lambda _, n: columns[n], (), "", layout.units, tuple(notes), taken)
 
 
 OWN_NAME = "one that is read must have its own name; names_line = [1, 2] joins the names of two lines as Upper.Lower"
