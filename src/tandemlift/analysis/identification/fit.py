@@ -22,7 +22,7 @@ from tandemlift.core.types import Array, Progress
 ROUGH_STEPS, FAR_STEPS, MOST_STEPS = 3, 7, 20  # of beginnings; the most with every window; the most of all
 LAST_BACK = 14  # the step from which on windows that were left out stay so
 NEAR, ENOUGH = 20.0, 0.25  # standard deviations: a step below the first is near the end, below the second is it
-MOST_LATE = 5.0  # standard deviations of the prior of a clock: the search goes no farther
+MOST_LATE = 0.015  # s of a clock in the search: a stream that is later is refused before
 UNEXPLAINED = 0.15  # of the mean square of a stream's residuals in the median window, as much more, is no vehicle's
 CHANCE = 5.0  # standard deviations of such a mean square that chance may add
 
@@ -82,8 +82,7 @@ class VehicleSearch(Linearisation):
         e.fixed = e.fixed + step[P : P + K]
         e.biases = e.biases + step[P + K :].reshape(e.biases.shape)
         clocks = [*dict.fromkeys(self.priors.clocks.values())]  # far off, a window's motion tells nothing of its clock
-        most = MOST_LATE * self.priors.bias[clocks]
-        e.biases[:, clocks] = np.clip(e.biases[:, clocks], -most, most)
+        e.biases[:, clocks] = np.clip(e.biases[:, clocks], -MOST_LATE, MOST_LATE)
         for part, (offset, matrix) in zip(self.parts, normal.back, strict=True):  # the starts, which were eliminated
             own = step[self.places(part)]
             part.starts = moved_starts(part.starts, offset - (matrix @ own[..., None])[..., 0])
