@@ -352,10 +352,11 @@ def _late(log: Log, laws: VehicleLaws, concerned: Sequence[str]) -> Iterator[Cau
             streams = KINDS[name.split()[0]].streams
             if fit is None or name.split()[0] in OF_EACH:
                 continue
+            late = fit.lag - laws.lag * (COMMANDS in streams)
             if {*streams[:1]} & {*group} or (name == "lever" and {*JOINTS} & {*group}):
-                lags.add(fit.lag)
+                lags.add(late)
             if {*streams[1:]} & {*group} or (COMMANDS in streams and SPEED_COMMANDS in group):
-                lags.add(-fit.lag)
+                lags.add(-late)
         for lag in lags:
             if abs(lag) > 0.008:
                 words = f"stamped {1e3 * abs(lag):.0f} ms {'late' if lag > 0.0 else 'early'}"

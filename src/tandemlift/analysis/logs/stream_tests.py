@@ -248,6 +248,7 @@ class VehicleLaws:
         self.table, self.vehicle = table, Vehicle.from_settings(table)
         self.thrust_constants = np.array([q.thrust_constant for q in table.quadrotors for _ in range(4)])
         self.joints = np.array([q.joint_position for q in table.quadrotors])
+        self.lag = float(np.mean([[q.lag_up, q.lag_down] for q in table.quadrotors]))  # s, of rotors
         self.at = np.zeros(3)  # m from the payload's origin: the accelerometer
         count = len(table.quadrotors)
         self.names = [
