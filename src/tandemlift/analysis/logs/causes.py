@@ -113,6 +113,9 @@ def _of_law(name: str, streams: str, fit: Fit | None) -> Iterator[StreamTest]:
     kind, test = KINDS[law], f"{MEANINGS[law]}{f', quadrotor {number[0]}' if number else ''}"
     low, high = kind.scales
     exact = law in ("turn", "path")
+    if fit is not None and fit.better > LIKELIER:
+        found = f"others suit better by {fit.better:.0f}"
+        yield _tried(streams, f"order and signs of axes of {test}", found, f"at most by {LIKELIER:g}", False)
     if fit is None or not fit.told.any():
         if fit is not None and exact and np.any(fit.moves & (fit.left > 0.7)):
             yield StreamTest(streams, test, "nothing in common", "equal", "contradicts")

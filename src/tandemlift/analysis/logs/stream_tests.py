@@ -116,6 +116,7 @@ class Fit(NamedTuple):
         left: the part of the square of y that x leaves, with scales that are allowed (3,).
         turn: the rotation vector [rad] by which x must be turned to agree with y (3,).
         turn_sd: the standard deviations of its components [rad] (3,); large ones are of turns that are not told.
+        better: by how many units of log-likelihood x and y exchanged, or with other signs, suit y better.
     """
 
     lag: float
@@ -129,6 +130,7 @@ class Fit(NamedTuple):
     left: Array
     turn: Array
     turn_sd: Array
+    better: float
 
 
 def fitted(y: Array, x: Array, good: Truths, noise: Sequence[Array], kind: LawKind) -> Fit | None:
@@ -176,7 +178,34 @@ def fitted(y: Array, x: Array, good: Truths, noise: Sequence[Array], kind: LawKi
     whole = np.mean((a - b @ A.T) ** 2, axis=0)
     lag_sd = 1.0 / math.sqrt(max(float(np.sum(slope / np.maximum(whole, 1e-300))) * own, 1e-300))
     turn, turn_sd = _turn_of(a, b, whole, own)
-    return Fit(lag, lag_sd, alike, told, power_y > CLEAR * noise[0], scale, scale_sd, off, left, turn, turn_sd)
+    return Fit(
+        lag,
+        lag_sd,
+        alike,
+        told,
+        power_y > CLEAR * noise[0],
+        scale,
+        scale_sd,
+        off,
+        left,
+        turn,
+        turn_sd,
+        _better(a, b, own),
+    )
+
+
+def _better(a: Array, b: Array, own: float) -> float:
+    """By how many units of log-likelihood b with x and y exchanged, or with other signs, suits a better; 0 with a z."""
+    if b[:, 2].any() or not b.any():
+        return 0.0
+    cross = a[:, :2].T @ b[:, :2]
+    alike = [
+        np.sum(signs * np.diag(c))
+        for c in (cross, cross[:, ::-1])
+        for signs in np.mgrid[1:-2:-2, 1:-2:-2].T.reshape(-1, 2)
+    ]
+    rests = np.sum(a * a) - np.maximum(alike, 0.0) ** 2 / np.sum(b * b)
+    return float(own * np.log(rests[0] / rests.min()))
 
 
 def _beyond(scale: Array, sd: Array, kind: LawKind) -> Truths:
