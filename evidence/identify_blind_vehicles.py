@@ -66,8 +66,7 @@ TARGETS = {  # median errors: relative, or in the unit
     "center_of_mass.z": (0.002, False),
     "vehicle.quadrotors.0.thrust_constant": (0.01, True),
     "vehicle.quadrotors.1.thrust_constant": (0.01, True),
-    "vehicle.quadrotors.*.lag_up": (0.05, True),
-    "vehicle.quadrotors.*.lag_down": (0.05, True),
+    **{f"vehicle.quadrotors.{i}.lag_{way}": (0.05, True) for i in (0, 1) for way in ("up", "down")},
     "actuators.delay": (0.001, False),
 }
 

@@ -44,11 +44,11 @@ class PlainVehicle:
         self.x, self.y, self.spins = np.array(places).T
 
     def readings(self, start, squares_, constants, per_thrust):
-        """States and specific forces (…, steps, 16) from starts (…, 13): constants (…, rotors), yaw per thrust (…)."""
+        """States and specific forces (…, steps, 16) from starts (…, 13): constants and yaw per thrust (…, rotors)."""
         x, found, h = start, [], self.step
         for k in range(squares_.shape[-2]):
             f = squares_[..., k, :] * constants
-            moment = np.stack([f @ self.y, -(f @ self.x), per_thrust * (f @ self.spins)], -1)
+            moment = np.stack([f @ self.y, -(f @ self.x), (f * per_thrust) @ self.spins], -1)
             thrust = f.sum(-1)
 
             def motion(s, thrust=thrust, moment=moment):
@@ -83,9 +83,10 @@ def misfit(plain, squares_, data, starts, nominal, noise, z, own):
     x[..., 10:] += moves[..., 9:]
     x[..., 6:10] = turned(x[..., 6:10], moves[..., 6:9])
     constants = np.repeat(np.exp(q[..., :2]) * nominal[:2], 4, axis=-1)[..., None, :]
-    yaw = (np.exp(q[..., 2]) * nominal[2])[..., None]
+    unlike = q[..., 3:4] * np.sqrt(0.5) * [1.0, -1.0]
+    yaw = np.repeat(np.exp(q[..., 2:3] + unlike) * nominal[2], 4, axis=-1)[..., None, :]
     y = plain.readings(x, squares_, constants, yaw)
-    bias = q[..., None, None, 3:]
+    bias = q[..., None, None, 4:]
     R = 0.0 * y[..., 6:10] + y[..., 6:10]
     lever = _rotated(R, bias[..., 6:9] + 0.0 * y[..., :3])
     swept = _rotated(R, np.cross(y[..., 10:13], bias[..., 6:9]))
@@ -111,7 +112,7 @@ def misfit(plain, squares_, data, starts, nominal, noise, z, own):
 
 
 def fitted(plain, squares_, data, starts, nominal, noise, priors):
-    """The unknowns (log constants of two quadrotors, log yaw per thrust, biases, point) and their standard deviations.
+    """(Logs of two constants, log yaw per thrust, what makes the two yaws unlike, biases, point), and their covariance.
 
     Args:
         plain: a `PlainVehicle`.
@@ -120,7 +121,7 @@ def fitted(plain, squares_, data, starts, nominal, noise, priors):
         starts: first guesses (W, 13).
         nominal: thrust constants of both quadrotors, yaw per thrust.
         noise: standard deviations by stream.
-        priors: standard deviations of the twelve shared unknowns.
+        priors: standard deviations of the thirteen shared unknowns.
     """
     W, shared, given = len(starts), len(priors), (plain, squares_, data, starts, nominal, noise)
 
@@ -144,7 +145,7 @@ def fitted(plain, squares_, data, starts, nominal, noise, priors):
 
     found = least_squares(residuals, np.zeros(shared + 12 * W), jac=jacobian, method="lm", xtol=1e-10)
     covariance = np.linalg.inv(found.jac.T @ found.jac)
-    return found.x[:shared], np.sqrt(np.diag(covariance))[:shared]
+    return found.x[:shared], covariance[:shared, :shared]
 
 
 def _rotated(q, v):

@@ -35,3 +35,25 @@ test("a flight that begins again leaves what is half written, and other flights 
   const chosen = fake(place).querySelectorAll("button").filter((one) => one.attributes.get("aria-pressed") === "true");
   assert.deepEqual(chosen.map((one) => one.textContent).slice(-2), ["full", "dark"]);
 });
+
+test("what is no finite number is named at its parameter, sent nowhere, and gives way to the value there was", () => {
+  const place = document.createElement("aside");
+  const sent: unknown[] = [];
+  const hand = { at: "point", plane: "facing", kind: "push", frequency: 4, force: 3, directions: "view" } as const;
+  const choices = { theme: "dark", graphicsChoice: "full", setGraphics: nothing, setTheme: nothing } as const;
+  const send = (message: unknown): number => sent.push(message);
+  const panel = new Panel(place, { hand, extra: [], send, ...choices }, document.createElement("div"));
+  panel.scene(flight(4));
+  const entry = fake(place).querySelectorAll("input").find((one) => one.attributes.get("aria-label") === "mass")!;
+  const reason = (): string => fake(place).querySelectorAll("p").map((one) => one.textContent).join("");
+  for (const [typed, named] of [["", "what was entered"], ["NaN", "NaN"], ["1e999", "1e999"], ["two", "two"]]) {
+    entry.value = typed;
+    entry.event("change");
+    assert.match(reason(), new RegExp(`mass: ${named} is no finite number`));
+    assert.equal(entry.value, "4");
+  }
+  assert.deepEqual(sent, []);
+  entry.value = "5";
+  entry.event("change");
+  assert.deepEqual(sent, [{ type: "set", key: "mass", value: 5 }]);
+});

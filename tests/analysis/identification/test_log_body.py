@@ -95,7 +95,7 @@ def test_a_shadow_flies_the_body_of_its_log_and_keeps_what_was_flown(flown, monk
         return SimpleNamespace(flown=commands, lead="lead")
 
     plan = SimpleNamespace(steps=20, every=5)
-    for name in ("check_vehicle", "check_log"):
+    for name in ("check_vehicle", "check_streams"):
         monkeypatch.setattr(shadows, name, lambda *_: None)
     monkeypatch.setattr(shadows, "plan_of", lambda log, mission: plan)
     monkeypatch.setattr(shadows, "LogBody", made)

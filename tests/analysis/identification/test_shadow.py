@@ -146,7 +146,7 @@ def in_g(log):
         (lambda log: log, {"changes": [{"time": 1.0, "key": "admittance.mass", "value": 2.0}]}, "changes in flight"),
         (lambda log: log.between(-1.0, 0.0005), {}, "before the first step"),
         (lambda log: log.between(9.0, 12.0), {}, r"begins at 9 s, .* shift it by log\.aligned\(\[\*log\], -9\)"),
-        (in_g, {}, 'seems to be in g: unit = "g"'),
+        (in_g, {}, r'seems to be in g: \[measured_specific_force\] unit = "g"'),
     ],
 )
 def test_what_cannot_be_the_log_of_the_mission_is_refused(log, change, mission, message):

@@ -11,9 +11,9 @@ from tandemlift.analysis.identification.windows import (
     _clear,
     _in_flight,
     _speeds,
-    _without_spikes,
     windows_of,
 )
+from tandemlift.analysis.logs.grid import without_spikes
 from tandemlift.analysis.logs.log import COMMANDS, IMU, MOTION, SPEED_COMMANDS, Log, Stream
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY
@@ -87,7 +87,7 @@ def test_a_spike_is_left_out_with_what_it_spoils_and_a_still_column_has_none():
     values = np.column_stack([RNG.normal(size=200), np.full(200, 2.0)])
     values[77, 0] += 80.0
     values[120, 1] += 1e-9  # a column that hardly ever changes cannot say what is usual
-    kept = _without_spikes(Stream(np.arange(200.0), values))
+    kept = without_spikes(Stream(np.arange(200.0), values))
     gone = set(range(200)) - set(kept.time.astype(int))
     assert 77 in gone
     assert gone <= {76, 77, 78}
@@ -98,7 +98,8 @@ def hovering(seconds, step=0.001):
     vehicle, t = iris().vehicle, np.arange(0.0, seconds, step)
     mass = vehicle.payload.mass + sum(q.mass for q in vehicle.quadrotors)
     constants = np.repeat([q.thrust_constant for q in vehicle.quadrotors], 4)
-    speed = np.sqrt(mass * GRAVITY / (8.0 * constants)) * (1.0 + 0.01 * np.sin(np.outer(t, 1.0 + np.arange(8.0))))
+    # speeds change by 1e-4 only: these sensors see no motion, and 1 % would turn the vehicle by more than they hide
+    speed = np.sqrt(mass * GRAVITY / (8.0 * constants)) * (1.0 + 1e-4 * np.sin(np.outer(t, 1.0 + np.arange(8.0))))
 
     def noisy(width, mean=0.0):
         return Stream(t, mean + 0.01 * RNG.normal(size=(len(t), width)))
@@ -114,6 +115,20 @@ def test_behind_the_last_window_there_is_a_block_for_its_end_and_one_for_a_late_
     w = windows_of(hovering(9.4 + extra), iris())
     assert len(w.first) >= 8
     assert w.first[-1] + w.length + 2 * w.block < w.count
+
+
+def test_samples_that_a_table_drew_between_others_are_left_out_and_smooth_ones_are_not():
+    log = hovering(9.4)
+    time, speeds = log[SPEED_COMMANDS]
+    own = Stream(time[::9], speeds[::9] + RNG.normal(size=(len(time[::9]), 8)))
+    drawn = np.array([np.interp(time, own.time, column) for column in own.values.T]).T
+    w = windows_of(Log({**log, SPEED_COMMANDS: Stream(time, drawn)}, "log"), iris())
+    assert w.commands.time[: len(own.time)] == pytest.approx(own.time)
+    assert len(w.commands.time) < len(own.time) + 9  # held behind the last one
+    assert any("rotor_speed_commands (89%) lie on straight lines" in note for note in w.notes)
+    smooth = windows_of(log, iris())
+    assert len(smooth.commands.time) == len(time)
+    assert not any("straight lines" in note for note in smooth.notes)
 
 
 def test_a_window_flies_where_rotors_carry_the_weight_clear_of_where_it_rested():

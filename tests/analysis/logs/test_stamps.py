@@ -83,7 +83,9 @@ def test_rows_that_share_a_stamp_are_left_out_and_coarse_stamps_are_refused():
 def test_a_forgotten_unit_and_a_wrong_one_are_told_from_the_rate(unit, factor, name, rate):
     time = np.arange(200) / rate
     check_rate("log.csv", name, time)
-    with pytest.raises(tl.InputError, match=f'stream {name}: samples at .* Hz, .* expected; time_unit = "{unit}"'):
+    with pytest.raises(
+        tl.InputError, match=rf'stream {name}: samples at .* Hz, .* expected; \[{name}\] time_unit = "{unit}"'
+    ):
         check_rate("log.csv", name, factor * time)
     with pytest.raises(tl.InputError, match='time_unit = "s"'):
         check_rate("log.csv", name, time / factor, unit)

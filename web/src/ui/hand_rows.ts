@@ -62,7 +62,13 @@ function forceInput(options: HandOptions): { input: HTMLInputElement; force: Lim
     options.force = Math.min(Math.max(input.valueAsNumber || options.force, MIN_FORCE), Number(input.max));
     input.value = String(options.force);
   };
-  input.addEventListener("change", take);
+  input.addEventListener("input", () => input.setCustomValidity(""));
+  input.addEventListener("change", () => {
+    const isNone = Number.isNaN(input.valueAsNumber);
+    take();
+    input.setCustomValidity(isNone ? `The force must be a finite number of newtons: it stays ${options.force} N` : "");
+    if (isNone) input.reportValidity();
+  });
   const limit = (newtons: number): void => {
     input.max = String(newtons);
     take();

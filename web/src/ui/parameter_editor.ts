@@ -121,7 +121,7 @@ export class ParameterEditor {
     const entry = el("input", { type: "number", step: "any", min: low, max: high, "aria-label": name });
     const enter = (value: number): void => {
       if (entry.value !== "" && Number.isFinite(value)) this.enter(i, value);
-      else this.show(this.value);
+      else this.refuse(`${name}: ${entry.value || "what was entered"} is no finite number`);
     };
     entry.addEventListener("change", () => enter(Number(entry.value)));
     const slide = low !== undefined && high !== undefined && high > low ? new SliderScale(low, high) : null;

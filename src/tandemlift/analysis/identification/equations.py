@@ -15,6 +15,7 @@ import numpy as np
 from tandemlift.analysis.identification.prediction import FORCES, STARTS, PredictedDerivatives, Predictor
 from tandemlift.analysis.identification.sensor_errors import (
     SensorPriors,
+    at_place,
     by_turns,
     noise_of,
     residuals,
@@ -22,9 +23,10 @@ from tandemlift.analysis.identification.sensor_errors import (
 )
 from tandemlift.analysis.identification.vehicle_unknowns import Unknowns
 from tandemlift.analysis.identification.windows import FlightWindows, Places, Samples, Truths
-from tandemlift.analysis.logs.log import JOINTS
+from tandemlift.analysis.logs.log import IMU, JOINTS, swept
 from tandemlift.core.types import Array
 
+FORCE, RATES = IMU
 HUBER = 3.0
 ROUGH, ROBUST, CAREFUL = range(3)  # Huber's weights: of beginnings, by their own spread; of all; none beyond `ABSURD`
 GROUP = 1.0  # s, about which a bias is constant
@@ -64,15 +66,17 @@ class Estimate:
 
     Attributes:
         q: coordinates of the vehicle (P,).
-        fixed: errors of sensors that stay: the point (3), the turns of joints (3 N).
+        fixed: errors of sensors that stay: the point (3), the turns of joints (3 N), the accelerometer's place (3).
         biases: of each group of windows (groups, B).
         noise: standard deviations by stream.
+        placed: whether the accelerometer's place is among `fixed`.
     """
 
     q: Array
     fixed: Array
     biases: Array
     noise: dict[str, float] = field(default_factory=dict)
+    placed: bool = False
 
     @property
     def point(self) -> Array:
@@ -82,7 +86,12 @@ class Estimate:
     @property
     def turns(self) -> Array:
         """The rotation vectors by which the axes of the joints' sensors are turned (N, 3) [rad]."""
-        return self.fixed[3:].reshape(-1, 3)
+        return self.fixed[3 : len(self.fixed) - 3 * self.placed].reshape(-1, 3)
+
+    @property
+    def place(self) -> Array:
+        """The place of the accelerometer from the payload's origin [m]."""
+        return self.fixed[-3:] if self.placed else np.zeros(3)
 
 
 class Equations(NamedTuple):
@@ -136,7 +145,7 @@ class Linearisation:
         self, predictors: list[Predictor], unknowns: Unknowns, priors: SensorPriors, fixed: Array | None = None
     ) -> None:
         self.unknowns, self.priors = unknowns, priors
-        self._fixed = np.zeros(priors.count) if fixed is None else fixed
+        self._fixed = priors.start if fixed is None else fixed
         self._sd = priors.sd * (1.0 if fixed is None else 1e-6)
         self.parts, groups = list[LogInSearch](), 0
         for predictor in predictors:
@@ -147,7 +156,8 @@ class Linearisation:
             every = np.ones(len(own), bool)
             self.parts.append(LogInSearch(predictor, predictor.starts(), own + groups, (groups, middle), every))
             groups += int(own.max()) + 1
-        self.estimate = Estimate(np.zeros(len(unknowns)), self._fixed, np.zeros((groups, len(priors.bias))))
+        biases = np.zeros((groups, len(priors.bias)))
+        self.estimate = Estimate(np.zeros(len(unknowns)), self._fixed, biases, placed=priors.placed)
         self.white = self._first_noise()
         self.estimate.noise = dict(self.white)
         self.steps = 0
@@ -177,6 +187,11 @@ class Linearisation:
         squares, moved = predictor.squares(n, True)
         predicted = predictor.predicted(part.starts, n, squares, e.point)
         derivatives = predictor.derivatives(part.starts, e.q, n, squares, moved, e.point)
+        if self.priors.placed:
+            predicted[FORCE] = at_place(predicted[FORCE], predicted[RATES], e.place, w.step)
+            block = w.step * w.block
+            own = derivatives.streams
+            own[FORCE] = own[FORCE] + np.cross(np.gradient(own[RATES], block, axis=2), e.place)
         found = Equations({}, {}, {}, {}, {}, {})
         for name, samples in w.samples.items():
             place = self.priors.places.get(name, slice(0, 0))
@@ -193,7 +208,7 @@ class Linearisation:
             weight = np.minimum(1.0, HUBER / np.maximum(size, HUBER))
             weight = weight * (size < ABSURD) if robust == CAREFUL else weight
             mean, count, late = _block_means(w, samples, r, weight)
-            J, root = self._columns(derivatives, name, place, late), np.sqrt(count)
+            J, root = self._columns(derivatives, name, place, late, w.step * w.block), np.sqrt(count)
             if clock is not None:
                 J[:, STARTS + clock] = derivatives.changes(name) / (w.step * w.block)
             J *= (root / e.noise[name])[:, None]
@@ -205,8 +220,8 @@ class Linearisation:
             found.rows[name] = np.where(count > 0.0, rows, np.nan)
         return found
 
-    def _columns(self, d: PredictedDerivatives, name: str, place: slice, late: Array) -> Array:
-        """Derivatives (W, C, blocks, width) over start, biases, vehicle, fixed errors."""
+    def _columns(self, d: PredictedDerivatives, name: str, place: slice, late: Array, span: float = 1.0) -> Array:
+        """Derivatives (W, C, blocks, width) over start, biases, vehicle, fixed errors; `span` of a block [s]."""
         J, base, B, K = d.streams[name], d.base[name][:, :-1], len(self.priors.bias), self.priors.count
         moved = J.shape[1] - STARTS  # coordinates of the vehicle, and the point
         full = np.zeros((len(J), STARTS + B + moved + K - 3, J.shape[2] - 1, J.shape[3]))
@@ -219,8 +234,12 @@ class Linearisation:
                 full[:, into] += late[:, None, :, None] * (J[:, of, 1:] - J[:, of, :-1])
         for i, k in enumerate(range(place.start, place.stop)):
             full[:, STARTS + k, :, i] = 1.0
+        if name == FORCE and self.priors.placed:
+            rates = d.base[RATES]
+            for i, unit in enumerate(np.eye(3), -3):
+                full[:, i] = swept(np.gradient(rates, span, axis=1), rates, unit)[:, :-1]
         if name in JOINTS and self.priors.joints:
-            full[:, STARTS + B + moved :] = by_turns(base)
+            full[:, STARTS + B + moved : STARTS + B + moved + 3 * self.priors.joints] = by_turns(base)
         return full
 
     def _reduced(self, equations: list[Equations]) -> NormalEquations:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
+from fnmatch import fnmatch
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -61,6 +63,8 @@ class Identification:
         whole: mass, centre of mass and inertia of the whole vehicle.
         remarks: what the data could not tell, in sentences.
         details: what the page shows beside these: `identification.json` has it.
+
+    A row is found by its key; one with an asterisk is the mean of those of all quadrotors, without an efficiency.
     """
 
     mission: Mission
@@ -73,6 +77,11 @@ class Identification:
         for row in (*self.rows, *self.whole):
             if row.key == key:
                 return row
+        if "*" in key and (own := [i for i, row in enumerate(self.rows) if fnmatch(row.key, key)]):
+            rows, alike = [self.rows[i] for i in own], np.array(self.details["correlation"])[np.ix_(own, own)]
+            value, halves = float(np.mean([row.value for row in rows])), np.array([row.half for row in rows])
+            half = float(np.sqrt(max(halves @ alike @ halves, 0.0))) / len(rows)
+            return rows[0]._replace(key=key, value=value, low=value - half, high=value + half, efficiency=math.nan)
         raise KeyError(f"{key} was not identified; {', '.join(row.key for row in (*self.rows, *self.whole))} were")
 
     def __repr__(self) -> str:

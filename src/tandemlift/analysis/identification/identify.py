@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import time
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,6 +16,7 @@ from tandemlift.analysis.identification.identification import Identification, Ro
 from tandemlift.analysis.identification.judgement import (
     Covariance,
     Whiteness,
+    assumptions_of,
     correlations_of,
     covariance_of,
     data_information,
@@ -22,7 +25,7 @@ from tandemlift.analysis.identification.judgement import (
     whiteness,
 )
 from tandemlift.analysis.identification.prediction import Predictor
-from tandemlift.analysis.identification.sensor_errors import sensor_priors
+from tandemlift.analysis.identification.sensor_errors import at_place, sensor_priors
 from tandemlift.analysis.identification.vehicle_unknowns import (
     AXES,
     DEFAULT,
@@ -32,7 +35,7 @@ from tandemlift.analysis.identification.vehicle_unknowns import (
     unknowns_of,
 )
 from tandemlift.analysis.identification.windows import FEWEST, LENGTH, FlightWindows, windows_of
-from tandemlift.analysis.logs.log import Log, log_of
+from tandemlift.analysis.logs.log import IMU, Log, log_of
 from tandemlift.core.errors import InputError, without_flight_warnings
 from tandemlift.core.progress import progress_or_own
 from tandemlift.core.types import Array, Progress, flat
@@ -96,14 +99,34 @@ def identify(
     _check_starts(unknowns, mission.mission.name)
     parts = [_split(w, held_back) for w in cut]
     streams = frozenset(name for w in cut for name in w.samples)
-    priors = sensor_priors(mission.sensors, len(mission.vehicle.quadrotors), streams)
+    place = next((w.place for w in cut if w.place is not None), None)
+    priors = sensor_priors(mission.sensors, len(mission.vehicle.quadrotors), streams, place)
     search = VehicleSearch([Predictor(fitted, unknowns, mission) for fitted, _ in parts], unknowns, priors)
-    with progress_or_own(f"{mission.mission.name}, identified", progress, "steps") as shown:
-        equations, normal = search.run(shown)
-    _check_structure(search, cut[0].source)
-    found = _judged(search, equations, normal, [last for _, last in parts if last is not None], mission)
-    vehicle = Unknowns(driven_numbers(found.mission.vehicle, found.mission.actuators.delay), ())
-    found.details.update(predicted=_predicted(other, vehicle, search, None), seconds=time.perf_counter() - began)
+    found = _searched(search, [last for _, last in parts if last is not None], other, progress)
+    return replace(found, details=_finite({**found.details, "seconds": time.perf_counter() - began}))
+
+
+def _searched(
+    search: VehicleSearch, held_back: list[FlightWindows], other: list[FlightWindows], progress: Progress | None
+) -> Identification:
+    """The end of a search, judged by the windows that were held back and those of another flight.
+
+    Raises:
+        InputError: no such vehicle explains the log.
+    """
+    predictor = search.parts[0].predictor
+    mission, source = predictor.mission, predictor.windows.source
+    try:
+        with progress_or_own(f"{mission.mission.name}, identified", progress, "steps") as shown:
+            equations, normal = search.run(shown)
+        _check_structure(search, source)
+        found = _judged(search, equations, normal, held_back, mission)
+        vehicle = Unknowns(driven_numbers(found.mission.vehicle, found.mission.actuators.delay), ())
+        found.details.update(predicted=_predicted(other, vehicle, search, None))
+    except (np.linalg.LinAlgError, ArithmeticError):
+        raise _no_such_vehicle(search, source, "the search leaves all numbers that a vehicle can have") from None
+    if not all(np.isfinite([row.value, row.low, row.high]).all() for row in (*found.rows, *found.whole)):
+        raise _no_such_vehicle(search, source, "some numbers of the vehicle are not finite")
     return found
 
 
@@ -122,7 +145,8 @@ def _keys(mission: Mission, parameters: Sequence[str] | None) -> list[str]:
 
 def _check_starts(unknowns: Unknowns, name: str) -> None:
     """Refuse a number that is estimated by its logarithm and starts from 0."""
-    zero = [u.name for u in unknowns.unknowns if u.positive and u.start == 0.0 and u.kind.field not in INERTIAS]
+    shared = [u for u in unknowns.unknowns if not u.weights]
+    zero = [u.name for u in shared if u.positive and u.start == 0.0 and u.kind.field not in INERTIAS]
     if zero:
         raise InputError(
             f"mission {name}: {', '.join(zero)} = 0: must start above 0 to be estimated; set about what it may be, as "
@@ -166,11 +190,23 @@ def _check_structure(search: VehicleSearch, source: str) -> None:
     """Refuse a mission with which no numbers explain how the vehicle turns."""
     times = search.estimate.noise["measured_rates"] / search.white["measured_rates"]
     if search.lost or times > IMPOSSIBLE:
-        name = search.parts[0].predictor.mission.mission.name
-        raise InputError(
-            f"{source}: measured_rates differ from those of any vehicle of mission {name} by more than {IMPOSSIBLE:g} "
-            "times their noise: it cannot be this vehicle; compare place, order and spin of rotors with the commands"
-        )
+        why = f"measured_rates differ from those of any such vehicle by more than {IMPOSSIBLE:g} times their noise"
+        raise _no_such_vehicle(search, source, why)
+
+
+def _no_such_vehicle(search: VehicleSearch, source: str, why: str) -> InputError:
+    name = search.parts[0].predictor.mission.mission.name
+    said = "it cannot be this vehicle; compare place, order and spin of rotors with the commands"
+    return InputError(f"{source}: mission {name}: {why}: {said}")
+
+
+def _finite(value: Any) -> Any:
+    """Plain values in which what is no finite number is None, as JSON has no such numbers."""
+    if isinstance(value, dict):
+        return {key: _finite(own) for key, own in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(own) for own in value]
+    return None if isinstance(value, float) and not np.isfinite(value) else value
 
 
 def _split(w: FlightWindows, held_back: float) -> tuple[FlightWindows, FlightWindows | None]:
@@ -190,7 +226,8 @@ def _values(unknowns: Unknowns, q: Array) -> dict[str, tuple[Array, str]]:
     for u in unknowns.unknowns:
         value = every[u.kind.field]
         table = np.array(flat(value) if hasattr(value, "_fields") else value, float).reshape(u.kind.axes or 1, -1)
-        found[u.key] = table[:, u.quadrotors[0] if u.quadrotors else 0], u.kind.unit
+        for i in u.quadrotors or (0,):
+            found[u.key.replace("*", str(i))] = table[:, i], u.kind.unit
     return found
 
 
@@ -224,8 +261,7 @@ def _results(
     changes = dict[str, list[float]]()
     for key, (values, _) in _values(unknowns, q).items():
         kept = np.maximum(values, 0.0) if "drag" in key or "delay" in key else values
-        for i in range(len(table.quadrotors)):
-            changes[key.replace("*", str(i))] = [float(f"{x:.7g}") for x in kept]
+        changes[key] = [float(f"{x:.7g}") for x in kept]
     return found, list(rows_of(_with_derivatives(whole, q), *matrices)), changes
 
 
@@ -267,6 +303,9 @@ def _details(
         "correlation": correlations.round(4).tolist(),
         "efficiency": float(np.median(covariance.efficiency)),
         "motion_point": e.point.tolist(),
+        "accelerometer_place": e.place.tolist(),
+        "assumptions": assumptions_of(search),
+        "streams": [one._asdict() for part in search.parts for one in part.windows.tests],
         "joint_turns": e.turns.tolist(),
         "biases": {name: e.biases[:, place].mean(axis=0).tolist() for name, place in search.priors.places.items()},
         "clocks": {name: float(e.biases[:, place].mean()) for name, place in search.priors.clocks.items()},
@@ -278,6 +317,8 @@ def _example(search: VehicleSearch) -> dict[str, Any]:
     part = search.parts[0]
     w, n = part.windows, search.unknowns.numbers(search.estimate.q)
     predicted = part.predictor.predicted(part.starts, n, part.predictor.squares(n, False)[0], search.estimate.point)
+    force, rates = (predicted[name] for name in IMU)
+    predicted[IMU[0]] = at_place(force, rates, search.estimate.place, w.step)
     last, shown = int(np.flatnonzero(part.used)[-1]), dict[str, Any]()
     for name in ("measured_specific_force", "measured_rates", "measured_joint_force", "measured_position"):
         s = w.samples.get(name)
@@ -295,13 +336,20 @@ def _example(search: VehicleSearch) -> dict[str, Any]:
 
 
 def reference_rows(mission: MissionLike) -> dict[str, float]:
-    """The numbers of a mission by the keys of `Identification` rows, to compare estimates with."""
+    """The numbers of a mission by the keys of `Identification` rows, to compare estimates with.
+
+    A key with an asterisk has the mean of all quadrotors, as `Identification` has it.
+    """
     mission = mission_of(mission)
     unknowns = unknowns_of(mission.vehicle, mission.actuators.delay)
     at = np.zeros(len(unknowns))
     every = _values(unknowns, at) | whole_vehicle(mission.vehicle, unknowns.start.vehicle)
-    return {
+    found = {
         f"{key}.{AXES[i]}" if len(values) > 1 else key: float(x)
         for key, (values, _) in every.items()
         for i, x in enumerate(values)
     }
+    of_all = dict[str, list[float]]()
+    for key, x in found.items():
+        of_all.setdefault(re.sub(r"quadrotors\.\d+", "quadrotors.*", key), []).append(x)
+    return found | {key: float(np.mean(xs)) for key, xs in of_all.items() if key not in found}

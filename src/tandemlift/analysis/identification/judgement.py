@@ -9,6 +9,7 @@ H⁻¹ alone is the Cramér-Rao bound if biases are constant in a group.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
@@ -19,7 +20,7 @@ from tandemlift.analysis.identification.fit import VehicleSearch
 from tandemlift.analysis.identification.identification import Row
 from tandemlift.analysis.identification.prediction import STARTS
 from tandemlift.analysis.identification.sensor_errors import SensorPriors
-from tandemlift.analysis.identification.vehicle_unknowns import Unknowns
+from tandemlift.analysis.identification.vehicle_unknowns import DEFAULT, UNLIKE, Unknowns
 from tandemlift.core.types import Array
 
 LAGS = 20  # blocks
@@ -126,7 +127,12 @@ def scale_is_known(unknowns: Unknowns, q: Array, information: Array) -> bool:
         information: of the data on it (P, P).
     """
     kinds = [u.kind for u in unknowns.unknowns]
-    along = np.array([float(u.positive and k.unit in SCALED) for u, k in zip(unknowns.unknowns, kinds, strict=True)])
+    along = np.array(
+        [
+            float(u.positive and k.unit in SCALED and not u.weights)
+            for u, k in zip(unknowns.unknowns, kinds, strict=True)
+        ]
+    )
     drag = np.array([u.start + x if ".drag." in u.key else 0.0 for u, x in zip(unknowns.unknowns, q, strict=True)])
     direction, sd = along + drag, float(np.min(unknowns.sd[along > 0.0], initial=1.0))
     return bool(direction @ information @ direction * sd**2 > 1.0 or sd < 0.01)
@@ -160,6 +166,32 @@ def misfit_by_window(search: VehicleSearch, rows: list[dict[str, Array]]) -> dic
             sizes = np.sqrt(np.nanmean(r[sampled] ** 2, axis=(1, 2)))
             found.setdefault(name, []).extend(np.column_stack([part.windows.times()[sampled], sizes]).tolist())
     return {name: sizes for name, sizes in found.items() if sizes}
+
+
+def assumptions_of(search: VehicleSearch) -> list[tuple[str, str]]:
+    """What the estimate takes for granted, and what quadrotors share: pairs of a subject and a sentence."""
+    unknowns = search.unknowns.unknowns
+    unlike = dict.fromkeys(u.key for u in unknowns if u.weights)
+    own = dict.fromkeys(u.kind.field for u in unknowns if len(u.quadrotors) == 1 and u.kind.each)
+    fixed = [key for key in DEFAULT if key not in {re.sub(r"\.\d+\.", ".*.", u.key) for u in unknowns}]
+    table = search.parts[0].predictor.mission
+    found = [
+        (", ".join(unlike), f"each quadrotor its own, about one that they share: a prior of {UNLIKE:.0%} between them"),
+        (", ".join(own), "each quadrotor its own, without a prior of being alike"),
+        (", ".join(fixed), "as in the mission: not estimated"),
+        ("rotors of a quadrotor", "share thrust constant, torque per thrust and lags; thrust is k Ω²"),
+        (
+            "actuators.delay",
+            "one for all rotors"
+            + "; its interval has that of unknown stamps"
+            * (max(part.windows.stamp_offset for part in search.parts) > 0.0),
+        ),
+        ("vehicle", "rigid, its joints too; drag is linear, and of the whole"),
+        ("air", f"steady wind of {list(table.wind.velocity)} m/s" if table.wind.model == "air" else "still"),
+        ("readings", "at the instant of their stamps; clocks of motion, joints and accelerometer are estimated"),
+        ("accelerometer", "at a place that is estimated" if search.priors.placed else "at the payload's origin"),
+    ]
+    return [(subject, said) for subject, said in found if subject]
 
 
 def remarks_on(
@@ -197,6 +229,14 @@ def remarks_on(
         said.append(
             f"Residuals are larger than the white noise of the samples, by the factor: {', '.join(beyond)}. Something "
             "of the vehicle is not in the mission: compare place, order and spin of its rotors."
+        )
+    if search.priors.placed:
+        at = f"{np.round(search.estimate.place, 3).tolist()} m from the payload's origin"
+        said.append(f"The accelerometer is not where the log's contract says, but {at}: its place is estimated, too.")
+    if not search.settled:
+        said.append(
+            f"The search did not settle in {search.steps} steps: numbers may be off by more than their intervals. Some "
+            "of the flight fits no vehicle of this mission; leave it out by log.between, or fly again."
         )
     if search.left_out:
         said.append(

@@ -29,7 +29,7 @@ OUTPUTS = (  # of `driven_step`, in its order
     "measured_joint_torque",
 )
 FORCES = OUTPUTS[4:]  # predicted as means over a block
-ALWAYS = ("measured_attitude",)
+ALWAYS = ("measured_attitude", "measured_rates")
 
 
 class PredictedDerivatives(NamedTuple):

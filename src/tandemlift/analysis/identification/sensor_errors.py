@@ -1,9 +1,9 @@
 """The errors of sensors as unknowns beside the vehicle, and the residuals of their samples.
 
 Biases of IMU and joints are constant over a few windows and walk from one group of windows to the next, as the drift of
-the mission's sensors allows. So do the offsets of the clocks of motion measurement and joints against the IMU's, which
-`clocks` finds to about a millisecond only. The axes of each joint's sensor are turned by a small rotation, and the
-motion measurement follows a point near the centre of mass.
+the mission's sensors allows. So do the offsets of the clocks of motion measurement and joints against the gyroscope's,
+which `clocks` finds to about a millisecond only, and that of the accelerometer. The axes of each joint's sensor are
+turned by a small rotation, and the motion measurement follows a point near the centre of mass.
 """
 
 from __future__ import annotations
@@ -12,9 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tandemlift.analysis.identification.prediction import FORCES
 from tandemlift.analysis.identification.windows import Samples
 from tandemlift.analysis.logs.clocks import GROUPS
-from tandemlift.analysis.logs.log import JOINTS, conjugate, quaternion_product
+from tandemlift.analysis.logs.log import JOINTS, conjugate, quaternion_product, swept
 from tandemlift.core.types import Array
 from tandemlift.missions import SensorsTable
 
@@ -24,9 +25,13 @@ STREAMS = {  # with a bias; the least standard deviations of the priors of bias 
     "measured_joint_force": ("joints", "force_", 0.5, 1e-3),
     "measured_joint_torque": ("joints", "torque_", 0.05, 1e-4),
 }
-CLOCK = 3e-3, 3e-5  # s; s/√s: standard deviations of the priors of a clock's offset and of its walk
+CLOCKS = {  # streams with a clock of their own; standard deviations of its offset [s] and of its walk [s/√s]
+    **{group: (names, 3e-3, 3e-5) for group, names in GROUPS.items()},
+    "accelerometer": (("measured_specific_force",), 5e-4, 1e-7),
+}
 POINT = 0.03  # m, standard deviation of the place of the point that the motion measurement follows
 TURN = 0.02  # rad, of a joint's sensor about each axis
+PLACE = 0.1  # m, of an accelerometer that is elsewhere
 
 
 @dataclass(frozen=True)
@@ -35,10 +40,11 @@ class SensorPriors:
 
     Attributes:
         places: of the bias of each stream that has one among all biases.
-        clocks: the place of the offset of the clock of each stream that is not the IMU's [s]; the last of the biases.
+        clocks: the place of the offset of each stream's clock against the gyroscope's [s]; the last of the biases.
         bias: standard deviations of the biases (B,).
         walk: of their change over a second (B,).
         joints: number of joints whose sensors' axes are unknown.
+        place: of the accelerometer, from the payload's origin [m] (3), where the search starts; None if it is there.
     """
 
     places: dict[str, slice]
@@ -46,20 +52,40 @@ class SensorPriors:
     bias: Array
     walk: Array
     joints: int
+    place: Array | None = None
+
+    @property
+    def placed(self) -> bool:
+        """Whether the accelerometer's place is searched for."""
+        return self.place is not None
 
     @property
     def count(self) -> int:
-        """Number of errors that do not change: the point's place, and a rotation at each joint."""
-        return 3 + 3 * self.joints
+        """Number of errors that do not change: places of point and accelerometer, a rotation at each joint."""
+        return 3 + 3 * self.joints + 3 * self.placed
 
     @property
     def sd(self) -> Array:
         """Standard deviations of these."""
-        return np.array([POINT] * 3 + [TURN] * 3 * self.joints)
+        return np.array([POINT] * 3 + [TURN] * 3 * self.joints + [PLACE] * 3 * self.placed)
+
+    @property
+    def start(self) -> Array:
+        """Where the search for them starts."""
+        return np.concatenate([np.zeros(3 + 3 * self.joints), self.place if self.place is not None else []])
 
 
-def sensor_priors(sensors: SensorsTable, joints: int, streams: frozenset[str]) -> SensorPriors:
-    """The priors of the sensors that a log has, none narrower than a careful builder could promise."""
+def sensor_priors(
+    sensors: SensorsTable, joints: int, streams: frozenset[str], place: Array | None = None
+) -> SensorPriors:
+    """The priors of the sensors that a log has, none narrower than a careful builder could promise.
+
+    Args:
+        sensors: of the mission.
+        joints: number of joints.
+        streams: of the log.
+        place: about where the accelerometer is, from the payload's origin [m]; None if it is there.
+    """
     places, bias, walk = dict[str, slice](), list[float](), list[float]()
     for name, (table, prefix, least, drift) in STREAMS.items():
         if name in streams:
@@ -68,9 +94,10 @@ def sensor_priors(sensors: SensorsTable, joints: int, streams: frozenset[str]) -
             places[name] = slice(len(bias), len(bias) + width)
             bias += [max(getattr(own, f"{prefix}bias"), least)] * width
             walk += [max(getattr(own, f"{prefix}drift"), drift)] * width
-    clocks = {name: len(bias) + i for i, names in enumerate(GROUPS.values()) for name in names}
-    bias, walk = ([*own, *[sd] * len(GROUPS)] for own, sd in zip((bias, walk), CLOCK, strict=True))
-    return SensorPriors(places, clocks, np.array(bias), np.array(walk), joints if JOINTS[0] in streams else 0)
+    clocks = {name: len(bias) + i for i, (names, *_) in enumerate(CLOCKS.values()) for name in names}
+    bias += [sd for _, sd, _ in CLOCKS.values()]
+    walk += [sd for _, _, sd in CLOCKS.values()]
+    return SensorPriors(places, clocks, np.array(bias), np.array(walk), joints if JOINTS[0] in streams else 0, place)
 
 
 def residuals(
@@ -79,16 +106,16 @@ def residuals(
     """Samples less predictions (n, width); of the attitude, turns about body axes (n, 3).
 
     Args:
-        s: the samples.
+        s: the samples, each at its instant.
         name: of the stream.
-        predicted: in every step.
+        predicted: in every step: motion at its start, loads under the mean thrust of the step, that is amid it.
         biases: of every window (W, width), or of none (W, 0).
         turns: of the axes of each joint's sensor (joints, 3).
         late: steps by which the stamps of every window are too early (W,).
     """
     p, width = predicted[name], s.values.shape[1]
-    beyond = s.beyond if late is None else s.beyond + late[s.window]
-    step = s.step if late is None else np.clip(s.step + np.floor(beyond).astype(np.intp), 0, p.shape[1] - 2)
+    beyond = s.beyond - (0.5 if name in FORCES else 0.0) + (0.0 if late is None else late[s.window])
+    step = np.clip(s.step + np.floor(beyond).astype(np.intp), 0, p.shape[1] - 2)
     seen = p[s.window, step]
     if beyond.any():
         seen = seen + (s.step + beyond - step)[:, None] * (p[s.window, step + 1] - seen)
@@ -102,6 +129,12 @@ def residuals(
         seen = turned_axes(seen, turns)
     shift = biases[s.window] if biases.shape[1] == width else 0.0
     return np.asarray(s.values - seen - shift)
+
+
+def at_place(force: Array, rates: Array, place: Array, step: float) -> Array:
+    """The specific force (…, n, 3) at a place (3) from where it is given, by rates (…, n, 3) every step [s]."""
+    turning = np.diff(rates, axis=-2, append=2.0 * rates[..., -1:, :] - rates[..., -2:-1, :]) / step
+    return force + swept(turning, rates, place)
 
 
 def turned_axes(v: Array, turns: Array) -> Array:

@@ -18,7 +18,7 @@ import numpy as np
 
 from tandemlift.analysis.identification.windows import check_columns
 from tandemlift.analysis.linearization.loop_margins import UNROUNDED
-from tandemlift.analysis.logs.checks import check_log
+from tandemlift.analysis.logs.causes import check_streams
 from tandemlift.analysis.logs.log import (
     COMMANDS,
     FLOWN_COMMANDS,
@@ -70,7 +70,7 @@ def shadow(log: Log, mission: MissionLike, *, progress: Progress | None = None) 
     """
     mission = mission_of(mission)
     check_vehicle(log, mission)
-    check_log(log)
+    check_streams(log, mission.vehicle)
     p = plan_of(log, mission)
     body = LogBody(log, p)
     flight = flight_of(p, fly_stepwise(p, p.steps // p.every + 1, p.every, progress, body, lead=body.lead), ENGINE)

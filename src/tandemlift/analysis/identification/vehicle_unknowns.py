@@ -7,6 +7,7 @@ A number that is always positive is estimated by its logarithm. An inertia J is 
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -20,6 +21,7 @@ from tandemlift.engines.driven_vehicle import VehicleNumbers, vehicle_numbers
 from tandemlift.missions import VehicleTable
 
 SPREAD = 0.3  # standard deviation of the prior of a positive number, relative
+UNLIKE = 0.05  # likewise, of what makes quadrotors that are alike in the table unlike
 THIN = 1e-3  # least second moment over the mean of the three
 MOST = 1.0  # largest standard deviation of the prior of a logarithm
 WEIGHED = 0.0005  # of a weighed one: 95 % of scales err by less than 0.1 %
@@ -42,7 +44,7 @@ class Kind(NamedTuple):
         fields: of `DrivenNumbers` or `VehicleNumbers`, whose numbers the key has.
         unit: of the key.
         axes: components of a vector, 0 for a number.
-        each: whether quadrotors have their own, also where the table has the same for all.
+        each: whether quadrotors have priors of their own, also where the table has the same for all.
         sd: standard deviation of the prior; None for a positive number, whose prior is relative. That of a product is
             relative to √(Σ_ii Σ_jj).
     """
@@ -82,6 +84,7 @@ class Unknown(NamedTuple):
         key: of `KINDS`, with the number of the quadrotor in place of the asterisk where each has its own.
         axis: of a vector, else −1.
         quadrotors: those that have it, none for a number of the whole.
+        weights: of what makes these unlike, a number for each, which add up to 0; none for what they share.
         start: its value in the table; 0 for what an inertia is made of.
         sd: standard deviation of its prior, of the logarithm if `positive`.
     """
@@ -92,6 +95,7 @@ class Unknown(NamedTuple):
     start: float
     sd: float
     positive: bool
+    weights: tuple[float, ...] = ()
 
     @property
     def kind(self) -> Kind:
@@ -143,11 +147,15 @@ class Unknowns:
         for u, x in zip(self.unknowns, q, strict=True):
             field = u.kind.field
             if field in INERTIAS:
-                for i in u.quadrotors or (0,):
+                for i, weight in zip(u.quadrotors or (0,), u.weights or itertools.repeat(1.0), strict=False):
                     change = turned.setdefault((INERTIAS[field], i), np.zeros(6))
-                    change[u.axis + 3 * (field == "products")] = x
+                    change[u.axis + 3 * (field == "products")] += weight * x
                 continue
             table = every[field].reshape(u.kind.axes or 1, -1)
+            for i, weight in zip(u.quadrotors, u.weights, strict=False):
+                table[max(u.axis, 0), i] *= math.exp(weight * x)
+            if u.weights:
+                continue
             for i in u.quadrotors or range(table.shape[1]):
                 table[max(u.axis, 0), i] = u.start * math.exp(x) if u.positive else u.start + x
         for (field, i), change in turned.items():
@@ -230,12 +238,22 @@ def unknowns_of(
                 if kind.field in INERTIAS and positive:
                     moment = 0.5 * column.sum() - column  # a thin one is less certain than the moments of inertia
                     spread = min(SPREAD * max(1.0, moment.mean() / max(moment[axis], 1e-300)), MOST)
-                found.append(Unknown(own, axis if kind.axes else -1, group, number, spread, positive))
+                shared = Unknown(own, axis if kind.axes else -1, group, number, spread, positive)
+                found += [shared, *_unlike(shared)]
     return _weighed(Unknowns(start, tuple(found)), weighed or {})
 
 
+def _unlike(shared: Unknown) -> list[Unknown]:
+    """What makes the quadrotors of a shared number unlike: each but the first against those before it."""
+    count, found = len(shared.quadrotors), list[Unknown]()
+    for k in range(1, count):
+        weights = np.array([1.0] * k + [-float(k)] + [0.0] * (count - k - 1)) / math.sqrt(k * (k + 1))
+        found.append(shared._replace(sd=UNLIKE, weights=tuple(weights.tolist())))
+    return found
+
+
 def _groups(table: Array, kind: Kind, count: int) -> list[tuple[int, ...]]:
-    """The quadrotors that share a number: all of them if they have the same, else each its own."""
+    """The quadrotors that share a prior: all of them if the table has the same for them, else each has its own."""
     if kind.each or not np.all(table == table[:, :1]):
         return [(i,) for i in range(count)]
     return [tuple(range(count))]

@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.analysis.logs import log as logs
-from tandemlift.analysis.logs.checks import check_log
+from tandemlift.analysis.logs.causes import StreamTest, check_streams
 from tandemlift.analysis.logs.clocks import GAP
+from tandemlift.analysis.logs.grid import without_spikes
 from tandemlift.analysis.logs.log import COMMANDS, IMU, JOINTS, MOTION, PUSH, SPEED_COMMANDS, Log, Stream
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import GRAVITY, Array
@@ -30,8 +31,8 @@ BLOCK = 0.010  # s, over which samples are averaged for derivatives
 LENGTH = 1.0  # s of a window
 LONGEST_DELAY = 0.1  # s that a command may be late
 SETTLING = 0.3  # s from the first command until the rotors' speeds are known
-SPIKE = 15.0  # times the usual distance of a sample from the middle of its neighbours
 HELD = 0.75  # of the samples of a stream: if fewer are new, a table holds each of them for several rows
+STRAIGHT = 1e-3  # of the change between its neighbours: a sample so near their straight line was drawn there
 BEYOND = 0.01  # of the commanded speeds, that may be above the largest
 CLEAR = 6.0  # radii of a rotor above where it stood: no contact, and a ground effect that its theory gives
 FEWEST = 8  # windows
@@ -70,6 +71,8 @@ class FlightWindows:
         floor: the height z [m], in the log, of a floor with ground effect; None without.
         notes: what was found and changed, in sentences.
         stamp_offset: how far [s] stamps of commands and of readings may be off from each other.
+        tests: of the streams against each other.
+        place: of the accelerometer, from the payload's origin [m], if the tests found it elsewhere.
     """
 
     source: str
@@ -85,6 +88,8 @@ class FlightWindows:
     floor: float | None = None
     notes: tuple[str, ...] = ()
     stamp_offset: float = 0.0
+    tests: tuple[StreamTest, ...] = ()
+    place: Array | None = None
 
     def times(self) -> Array:
         """The time [s] at which each window begins."""
@@ -124,10 +129,11 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
         InputError: a stream is missing, has another number of rotors or joints, or no flight is left.
     """
     check_columns(log, mission.vehicle, mission.mission.name)
-    commands = _speeds(log, mission.vehicle)
     log.require(*IMU, MOTION[0], MOTION[2])
-    check_log(log)
+    _check_commands(log)
+    streams = check_streams(log, mission.vehicle)
     log, notes = _without_held(log)
+    commands = _speeds(log, mission.vehicle)
     imu = log["measured_specific_force"].time
     interval = float(np.median(np.diff(imu))) if len(imu) > 1 else LONGEST_STEP
     step = interval / np.ceil(interval / LONGEST_STEP - 1e-9)
@@ -161,21 +167,53 @@ def windows_of(log: Log, mission: Mission, length: float = LENGTH) -> FlightWind
             f"{usable.sum()} windows; {FEWEST} are needed"
         )
     lowest = float(log[MOTION[0]].values[:, 2].min())
-    return replace(cut.chosen(usable), floor=_floor(mission, rested, lowest), notes=notes, stamp_offset=offset)
+    cut = replace(cut.chosen(usable), floor=_floor(mission, rested, lowest), notes=notes)
+    return replace(cut, stamp_offset=offset, tests=streams.table, place=streams.place)
 
 
 def _without_held(log: Log) -> tuple[Log, tuple[str, ...]]:
-    """(A log without the samples that repeat the one before in a table that holds them, what was left out)."""
-    streams, held = dict(log), list[str]()
-    for name in (*IMU, *MOTION, *JOINTS):
-        if name in log:
-            time, values = log[name]
-            new = np.insert(np.any(np.diff(values, axis=0) != 0.0, axis=1), 0, True)
-            if new.mean() < HELD:
-                streams[name] = Stream(time[new], values[new])
-                held.append(f"{name} ({1.0 - new.mean():.0%})")
-    said = f"Samples of {', '.join(held)} repeat the one before and are left out: leave such cells of a table empty."
-    return replace(log, streams=streams), (f"{log.source}: {said}",) * bool(held)
+    """(A log without the samples that a table has made up between those that were taken, what was left out).
+
+    A table of one clock repeats the sample before, or draws straight lines, where a stream has none.
+    """
+    streams, notes = dict(log), list[str]()
+    for words, names, taken in (
+        ("repeat the one before", (*IMU, *MOTION, *JOINTS), _new),
+        ("lie on straight lines between others", (*IMU, *MOTION, *JOINTS, COMMANDS, SPEED_COMMANDS), _bends),
+    ):
+        made_up = list[str]()
+        for name in (n for n in names if n in streams):
+            time, values = streams[name]
+            own = taken(time, values)
+            if own.mean() < HELD:
+                streams[name] = Stream(time[own], values[own])
+                made_up.append(f"{name} ({1.0 - own.mean():.0%})")
+        said = f"Samples of {', '.join(made_up)} {words} and are left out: leave such cells of a table empty."
+        notes += [f"{log.source}: {said}"] * bool(made_up)
+    return replace(log, streams=streams), tuple(notes)
+
+
+def _new(_: Array, values: Array) -> Truths:
+    """Which samples differ from the one before."""
+    return np.insert(np.any(np.diff(values, axis=0) != 0.0, axis=1), 0, True)
+
+
+def _bends(time: Array, values: Array) -> Truths:
+    """Which samples are not on the straight line between their neighbours, and not equal to both.
+
+    All of them, if those on lines are not far nearer to them than the others: a smooth motion has no bends.
+    """
+    every = np.ones(len(time), bool)
+    if len(time) < 3:
+        return every
+    part = ((time[1:-1] - time[:-2]) / (time[2:] - time[:-2]))[:, None]
+    off = np.abs(values[1:-1] - values[:-2] - part * (values[2:] - values[:-2]))
+    step = np.abs(values[2:] - values[:-2])
+    straight = np.all(off <= STRAIGHT * step, axis=1) & np.any(step > 0.0, axis=1)
+    size = np.sum(off / np.maximum(np.ptp(values, axis=0), 1e-300), axis=1)
+    if straight.all() or not straight.any() or np.median(size[straight]) > STRAIGHT * np.median(size[~straight]):
+        return every
+    return np.concatenate([[True], ~straight, [True]])
 
 
 def _ends(log: Log, commands: Stream) -> dict[str, float]:
@@ -197,16 +235,20 @@ def _between(times: Array, stream: Stream) -> Array:
     return np.array([np.interp(times, stream.time, v, left=0.0, right=0.0) for v in stream.values.T]).T
 
 
-def _speeds(log: Log, vehicle: VehicleTable) -> Stream:
-    """The commanded speeds [rad/s]; of thrusts, by the vehicle's thrust constants."""
+def _check_commands(log: Log) -> None:
+    """Refuse a log without commands, or with those of a rotor that never change."""
     if SPEED_COMMANDS not in log and COMMANDS not in log:
         raise InputError(f"{log.source}: has neither {SPEED_COMMANDS} nor {COMMANDS}; it has {', '.join(log)}")
-    name = SPEED_COMMANDS if SPEED_COMMANDS in log else COMMANDS
-    rotors = [q for q in vehicle.quadrotors for _ in range(4)]
-    time, values = log[name]
-    if len(time) > 1 and np.ptp(values, axis=0).min() == 0.0:
+    values = log[name := log.commands].values
+    if len(values) > 1 and np.ptp(values, axis=0).min() == 0.0:
         rotor = int(np.argmin(np.ptp(values, axis=0)))
         raise InputError(f"{log.source}: {name}: column {rotor} is constant, {values[0, rotor]:g}: a dead channel")
+
+
+def _speeds(log: Log, vehicle: VehicleTable) -> Stream:
+    """The commanded speeds [rad/s]; of thrusts, by the vehicle's thrust constants."""
+    rotors = [q for q in vehicle.quadrotors for _ in range(4)]
+    time, values = log[name := log.commands]
     most = np.array([q.max_speed for q in rotors])
     if name == COMMANDS:
         values = np.sqrt(np.maximum(values, 0.0) / [q.thrust_constant for q in rotors])
@@ -233,7 +275,7 @@ def check_columns(log: Log, vehicle: VehicleTable, name_of_mission: str) -> None
 
 def _samples(cut: FlightWindows, stream: Stream) -> Samples:
     """The samples of a stream that are in windows."""
-    stream = _without_spikes(stream)
+    stream = without_spikes(stream)
     exact = (stream.time - cut.begin) / cut.step
     step = np.floor(exact + 1e-3).astype(np.intp)
     beyond = np.where(np.abs(exact - step) < 2e-3, 0.0, exact - step)
@@ -241,15 +283,6 @@ def _samples(cut: FlightWindows, stream: Stream) -> Samples:
     local = step - cut.first[np.maximum(window, 0)]
     inside = (window >= 0) & (local < cut.length)
     return Samples(window[inside], local[inside], beyond[inside], stream.values[inside])
-
-
-def _without_spikes(stream: Stream) -> Stream:
-    """The samples that are not far off the middle of their neighbours, measured by the median of all."""
-    off = np.zeros_like(stream.values)
-    off[1:-1] = np.abs(stream.values[1:-1] - 0.5 * (stream.values[:-2] + stream.values[2:]))
-    usual = np.median(off, axis=0)
-    kept = np.all((off <= SPIKE * usual) | (usual == 0.0), axis=1)
-    return Stream(stream.time[kept], stream.values[kept])
 
 
 def _have_starts(cut: FlightWindows) -> Truths:

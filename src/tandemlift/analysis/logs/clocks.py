@@ -26,7 +26,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, Log, Stream, conjugate, quaternion_product
+from tandemlift.analysis.logs.log import IMU, JOINTS, MOTION, Log, Stream, turns
 from tandemlift.core.types import Array
 
 GROUPS = {"motion": MOTION, "joints": JOINTS}
@@ -121,14 +121,9 @@ def synchronised(log: Log) -> Log:
 
 def turn_windows(attitude: Stream) -> Windows:
     """The mean rates [rad/s] of a measured attitude, body axes, by the rotation from begin to end of each window."""
-    q = attitude.values / np.linalg.norm(attitude.values, axis=1, keepdims=True)
     first, last = _pairs(attitude.time, WINDOW)
-    change = quaternion_product(conjugate(q[first]), q[last])
-    real, turn = change[:, 0], change[:, 1:]
-    size = np.linalg.norm(turn, axis=1)
-    angle = 2.0 * np.arctan2(size, np.abs(real)) * np.where(real < 0.0, -1.0, 1.0)
     begin, end = attitude.time[first], attitude.time[last]
-    return Windows(begin, end, turn * (angle / np.maximum(size, 1e-300) / (end - begin))[:, None])
+    return Windows(begin, end, turns(attitude.values[first], attitude.values[last]) / (end - begin)[:, None])
 
 
 def change_windows(stream: Stream) -> Windows:

@@ -11,7 +11,7 @@ docs/how-to/log-a-vehicle.md is the contract for users.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -70,6 +70,23 @@ def quaternion_product(a: Array, b: Array) -> Array:
     return np.concatenate([w, aw * bv + bw * av + np.cross(av, bv)], axis=-1)
 
 
+def rotation_vectors(q: Array) -> Array:
+    """The rotation vectors (…, 3) [rad] of quaternions (…, 4) of any length, the shorter way round."""
+    size = np.linalg.norm(q[..., 1:], axis=-1, keepdims=True)
+    angle = 2.0 * np.arctan2(size, np.abs(q[..., :1])) * np.where(q[..., :1] < 0.0, -1.0, 1.0)
+    return np.asarray(q[..., 1:] * (angle / np.maximum(size, 1e-300)))
+
+
+def turns(a: Array, b: Array) -> Array:
+    """The rotation vectors (…, 3) [rad] from attitudes a (…, 4) to b, axes of the body."""
+    return rotation_vectors(quaternion_product(conjugate(a), b))
+
+
+def swept(turning: Array, rates: Array, r: Array) -> Array:
+    """The acceleration at a place r (3) [m] of a rigid body over that of its origin: α × r + ω × (ω × r)."""
+    return np.cross(turning, r) + np.cross(rates, np.cross(rates, r))
+
+
 def rotated(q: Array, v: Array) -> Array:
     """Vectors (n, 3) turned by quaternions w, x, y, z (n, 4) of about unit length."""
     w, r = q[:, :1], q[:, 1:]
@@ -86,6 +103,7 @@ class Log(Mapping[str, Stream]):
         notes: what was found and changed since it was read, a line each.
         stamp_offset: how far [s] stamps of readings may be off from those of commands; None if nobody said it.
         breaks: the times [s] at which the estimate of the motion was reset: no window goes over one.
+        ways: of each stream that a map led to, its table in that map, as far as it was given.
 
     Raises:
         InputError: a stream is unknown or empty, has another width, a number that is not finite, or a stamp that is not
@@ -97,6 +115,7 @@ class Log(Mapping[str, Stream]):
     notes: tuple[str, ...] = ()
     stamp_offset: float | None = None
     breaks: tuple[float, ...] = ()
+    ways: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         off = 0.0 if self.stamp_offset is None else self.stamp_offset
@@ -147,6 +166,11 @@ class Log(Mapping[str, Stream]):
     def __repr__(self) -> str:
         rates = ", ".join(f"{name} {self.rate(name):.4g} Hz" for name in self)
         return f"<Log {self.source}: {self.duration:.6g} s, {rates}>"
+
+    @property
+    def commands(self) -> str:
+        """The name of the stream of commands: of speeds, if it has these."""
+        return SPEED_COMMANDS if SPEED_COMMANDS in self.streams else COMMANDS
 
     def require(self, *names: str) -> None:
         """Refuse a log without these streams.

@@ -21,10 +21,13 @@ UNITS = {
     "deg": ("rad", DEGREE),
     "deg/s": ("rad/s", DEGREE),
     "rpm": ("rad/s", math.pi / 30.0),
+    "krad/s": ("rad/s", 1e3),
+    "mrad/s": ("rad/s", 1e-3),
     "g": ("m/s^2", STANDARD_GRAVITY),
     "mg": ("m/s^2", 1e-3 * STANDARD_GRAVITY),
     "m/s²": ("m/s^2", 1.0),
     "ft/s^2": ("m/s^2", FOOT),
+    "mm/s^2": ("m/s^2", 1e-3),
     "kgf": ("N", STANDARD_GRAVITY),
     "gf": ("N", 1e-3 * STANDARD_GRAVITY),
     "lbf": ("N", POUND),
@@ -41,11 +44,13 @@ UNITS = {
     "mm/s": ("m/s", 1e-3),
     "cm/s": ("m/s", 1e-2),
     "ft/s": ("m/s", FOOT),
+    "km/h": ("m/s", 1.0 / 3.6),
     "ms": ("s", 1e-3),
     "us": ("s", 1e-6),
     "ns": ("s", 1e-9),
 }
 """Units that columns may have beside those of streams: for which of these, and the factor."""
+TIME_UNITS = ("s", *(unit for unit, (of, _) in UNITS.items() if of == "s"))
 SPELT = {"°/s": "deg/s", "dps": "deg/s", "°": "deg", "degrees": "deg", "m/s/s": "m/s^2", "m/s2": "m/s^2", "µs": "us"}
 """Other spellings of units in tables."""
 
@@ -87,13 +92,18 @@ class Way(Table):
             the samples of all are interpolated at the times of the first, as far as each has some without a gap. "" is
             the first topic that has the columns.
         unit: of the columns: that of the stream, or one of `UNITS` for it; "1" stands for that of the stream.
-        offset: added to the columns before unit and scale, or one for each.
+        offset: added to the columns before all else, or one for each.
+        power: of the sizes of the columns, before factors: 0.5 for squares of speeds.
         scale: factor, or one for each column, beside that of the unit: signs for other axes.
         time: the column of stamps; of a list, the first that is there and has stamps.
         time_unit: of it.
         time_offset: a column, in the same unit, that is added to the stamps; 2³¹ − 1 marks a row without a reading.
         frame: "body" for a velocity in body axes, which the attitude turns into world axes.
-        up: the axis of the columns that points up; "y" becomes our z, and z becomes −y.
+        delay: by how much [s] the stamps are late.
+        up: the axis of the columns that points up; "y" becomes our z, and z becomes −y. Of an attitude, of the world
+            and of what is tracked.
+        turn: rotation vector [deg] of the sensor's axes from the body's, after `up`: of an attitude, of what is
+            tracked.
         angles: of an attitude in angles: the axes of the turns in the order of the columns, as in SciPy's
             `Rotation.from_euler`: "xyz" (small: about fixed axes) is roll, pitch, yaw, "ZYX" is yaw, pitch, roll;
             or "rotation vector".
@@ -104,12 +114,15 @@ class Way(Table):
     topic: str | tuple[str, ...] = ""
     unit: str = "1"
     offset: float | tuple[float, ...] = 0.0
+    power: Annotated[float, Field(gt=0.0, le=4.0)] = 1.0
     scale: float | tuple[float, ...] = 1.0
     time: str | tuple[str, ...] = TIME
     time_unit: str = "s"
     time_offset: str = ""
     frame: Literal["", "body"] = ""
+    delay: float = 0.0
     up: Literal["y", "z"] = "z"
+    turn: tuple[float, float, float] = (0.0, 0.0, 0.0)
     angles: str = ""
     where: dict[str, list[float]] = Field(default_factory=dict)
 
@@ -122,6 +135,11 @@ class Way(Table):
     def stamps(self) -> tuple[str, ...]:
         """The columns of stamps."""
         return (self.time,) if isinstance(self.time, str) else self.time
+
+    @property
+    def is_euler(self) -> bool:
+        """Whether the columns are angles about axes."""
+        return self.angles not in ("", ROTATION_VECTOR)
 
     @property
     def needs(self) -> list[str]:
@@ -169,6 +187,8 @@ def _way(name: str, common: Map, table: Any) -> Way:
     elif name == MOTION[2] and len(way.columns) == 3:
         said = 'three columns are angles: say angles = "xyz" for roll, pitch, yaw, and unit = "deg" or "rad"'
         raise InputError(f"{name}.columns = {shown(list(way.columns))}: must be w, x, y, z of a quaternion; {said}")
+    if any(way.turn) and channel.width == 1:
+        raise InputError(f"{name}.turn = {shown(list(way.turn))}: {name} has no axes")
     for key, own in (("unit", "rad" if way.angles else channel.unit), ("time_unit", "s")):
         allowed = [*dict.fromkeys((own, *(unit for unit, (other, _) in UNITS.items() if other == own), "1"))]
         if getattr(way, key) not in allowed:

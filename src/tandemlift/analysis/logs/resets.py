@@ -17,12 +17,11 @@ import numpy as np
 
 from tandemlift.analysis.logs.checks import acceleration
 from tandemlift.analysis.logs.clocks import GAP, means_of
-from tandemlift.analysis.logs.log import IMU, MOTION, Log, Stream, conjugate, quaternion_product
+from tandemlift.analysis.logs.log import IMU, MOTION, Log, Stream, stream_channel, turns
 from tandemlift.core.types import Array
 
 POSITION, VELOCITY, ATTITUDE = MOTION
 LEAST = {POSITION: 0.05, VELOCITY: 0.15, ATTITUDE: 0.035}  # m, m/s, rad: less is noise
-UNITS = {POSITION: (1.0, "m"), VELOCITY: (1.0, "m/s"), ATTITUDE: (180.0 / np.pi, "°")}
 OFTEN = 0.02  # of the samples: more steps are noise
 UNUSUAL = 15.0  # standard deviations of the usual difference
 FEWEST = 20  # samples
@@ -39,18 +38,10 @@ class Reset(NamedTuple):
     size: float
 
     def __str__(self) -> str:
-        factor, unit = UNITS[self.name]
-        of = f"{factor * self.size:.3g}{'' if unit == '°' else ' '}{unit}" if np.isfinite(self.size) else "unknown size"
+        is_turn, unit = self.name == ATTITUDE, stream_channel(self.name).unit
+        of = f"{np.degrees(self.size):.3g}°" if is_turn else f"{self.size:.3g} {unit}"
+        of = of if np.isfinite(self.size) else "unknown size"
         return f"{self.name} at {self.time:.4g} s by {of}"
-
-
-def turns(q: Array) -> Array:
-    """The rotation vectors (n − 1, 3) [rad] from each attitude w, x, y, z (n, 4) to the next, body axes."""
-    unit = q / np.linalg.norm(q, axis=1, keepdims=True)
-    change = quaternion_product(conjugate(unit[:-1]), unit[1:])
-    size = np.linalg.norm(change[:, 1:], axis=1)
-    angle = 2.0 * np.arctan2(size, np.abs(change[:, 0])) * np.where(change[:, 0] < 0.0, -1.0, 1.0)
-    return np.asarray(change[:, 1:] * (angle / np.maximum(size, 1e-300))[:, None])
 
 
 def resets(log: Log) -> list[Reset]:
@@ -90,7 +81,7 @@ def _steps(name: str, stream: Stream, slope: Stream) -> list[Reset]:
     if len(time) < FEWEST or len(slope.time) < FEWEST:
         return []
     begin, end = time[:-1], time[1:]
-    change = turns(values) if name == ATTITUDE else np.diff(values, axis=0)
+    change = turns(values[:-1], values[1:]) if name == ATTITUDE else np.diff(values, axis=0)
     apart = end - begin
     told = (begin >= slope.time[0]) & (end <= slope.time[-1]) & (apart <= GAP * np.median(apart))
     if told.sum() < FEWEST:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from tandemlift.analysis.logs.clocks import GAP
 from tandemlift.analysis.logs.log import MOTION, PUSH, Log, Stream
+from tandemlift.analysis.logs.maps import TIME_UNITS, factor_of
 from tandemlift.core.errors import InputError
 from tandemlift.core.types import Array
 
@@ -24,7 +25,6 @@ COUNTERS = {"2³² µs": 2**32 * 1e-6, "2³² ms": 2**32 * 1e-3, "2²⁴ ms": 2*
 PAUSE = 10.0  # s: a counter that begins anew within this time is continued
 NEXT = 10.0  # usual intervals: a stamp of 0 is one if the next stamp is as close
 ENOUGH = 20  # samples, from which their rate tells the unit of their stamps
-SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 FAST, SLOW = (5.0, 1e4), (0.8, 5e3)  # Hz: rates that IMU, joints and commands, and that motion capture, may have
 LIKELY = {True: (40.0, 8e3), False: (5.0, 2e3)}  # Hz: rates that they have; a unit that gives one is named
 COARSE = 0.2  # of the rows: the largest part that may have the stamp of the row before, and other values
@@ -154,9 +154,9 @@ def check_rate(source: str, name: str, time: Array, unit: str = "s") -> None:
     usual = float(np.median(intervals))
     rate = 1.0 / usual if usual > 0.0 else np.inf
     if not low <= rate <= high:
-        rates = {other: rate * SECONDS[unit] / size for other, size in SECONDS.items() if other != unit}
+        rates = {other: rate * factor_of(unit) / factor_of(other) for other in TIME_UNITS if other != unit}
         likely = [other for other, found in rates.items() if least <= found <= most]
-        hint = f'; time_unit = "{likely[0]}"?' if likely else ""
+        hint = f'; [{name}] time_unit = "{likely[0]}"?' if likely else ""
         raise InputError(
             f"{source}: stream {name}: samples at {rate:.3g} Hz, from {low:g} to {high:g} Hz are expected{hint}"
         )

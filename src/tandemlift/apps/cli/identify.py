@@ -82,6 +82,7 @@ def shadow(
 @click.option("--weighed", multiple=True, metavar="KEY=KG", help="A mass from a scale. Can be repeated.")
 @click.option("--parameters", metavar="A,B,…", help="Keys to estimate.  [default: all that can be]")
 @click.option("--window", type=float, default=1.0, show_default=True, metavar="S", help="Length of a window.")
+@click.option("--one-body", is_flag=True, help="LOGS are of several recorders in one flight: join them by its turn.")
 @click.option("--predict", metavar="LOG", help="Another flight, which the identified vehicle predicts.")
 @click.option("--out", metavar="DIR", help="Folder for the results.  [default: out/NAME-identification]")
 @flying.style_option
@@ -92,6 +93,7 @@ def identify(
     weighed: tuple[str, ...],
     parameters: str | None,
     window: float,
+    one_body: bool,
     predict: str | None,
     out: str | None,
     **reading: Any,
@@ -106,6 +108,7 @@ def identify(
     Examples:
       tandemlift identify out/iris-excited --mission iris --weighed vehicle.payload.mass=0.5
       tandemlift identify one.ulg two.ulg --mission start.toml --align --out out/mine
+      tandemlift identify left.ulg right.ulg tracker.csv --one-body --columns map.toml --mission start.toml
 
     \b
     Files in the results folder (other files there are left alone):
@@ -114,13 +117,15 @@ def identify(
       identification.html   fits, residuals, correlations, prediction of what was held back
     """
     import tandemlift as tl
+    from tandemlift.analysis.logs.joining import joined
     from tandemlift.pictures.report.identification_report import write_identification
 
     start, masses = flying.load(mission, settings), dict(map(_weighed, weighed))
     paths = [*logs, *([predict] if predict else [])]
     read = [tl.read_log(path, **reading) for path in paths]
-    echo(*(note for log in read for note in log.notes))
     other = read.pop() if predict else None
+    read = [joined(read)] if one_body else read
+    echo(*(note for log in [*read, *([other] if other else [])] for note in log.notes))
     keys = parameters.split(",") if parameters else None
     with results_folder(out, Path("out") / f"{start.mission.name}-identification", ()) as folder:
         with progress_bar("Identifying", "steps", shown=sys.stderr.isatty()) as progress:

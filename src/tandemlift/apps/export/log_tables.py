@@ -42,6 +42,7 @@ class LogTables(NamedTuple):
         arrival: the column with times of arrival; "" if there is none.
         units: what the file says of the units of columns, by name.
         notes: what was found while it was read.
+        taken: to be told the columns of a topic that a stream has copied: those that no other one needs may go.
     """
 
     topics: Sequence[str]
@@ -51,6 +52,7 @@ class LogTables(NamedTuple):
     arrival: str = ""
     units: Mapping[str, str] = {}
     notes: tuple[str, ...] = ()
+    taken: Callable[[str, Sequence[str]], None] = lambda *_: None
 
 
 Wanted = Mapping[str, Sequence[str]]  # columns by topic

@@ -7,26 +7,27 @@ theirs stream by stream.
 
 from __future__ import annotations
 
+import functools
 import math
 import os
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tandemlift.analysis.logs.checks import check_stamps
 from tandemlift.analysis.logs.clocks import GAP, synchronised
-from tandemlift.analysis.logs.log import IMU, MOTION, Log, Stream, log_of, quaternion_product
+from tandemlift.analysis.logs.columns import stream_of
+from tandemlift.analysis.logs.log import IMU, MOTION, Log, Stream, log_of
 from tandemlift.analysis.logs.maps import (
     FORMATS,
     OF_ALL,
     OF_TABLE,
     OFFSET,
-    ROTATION_VECTOR,
     SPELT,
     UNITS,
     Map,
@@ -193,7 +194,10 @@ def _log(path: Path, tables: LogTables, ways: Mapping[str, list[Way]], asked: Co
     first = min(float(stream.time[0]) for stream in streams.values())
     told = [reset for name, one in found.items() for reset in _counted(name, one, tables, first)]
     notes = dict.fromkeys((*tables.notes, *(note for one in found.values() for note in one.notes)))
-    log = Log({name: Stream(stream.time - first, stream.values) for name, stream in streams.items()}, str(path))
+    used = {name: one.way.model_dump(exclude_unset=True) for name, one in found.items()}
+    for stream in streams.values():
+        stream.time[:] -= first  # its own array: a large log has no memory for another one
+    log = Log(streams, str(path), ways=used)
     return with_resets(replace(log, notes=(*notes, *gaps(log))), told)
 
 
@@ -224,7 +228,8 @@ def _stream(path: Path, name: str, way: Way, tables: LogTables, *, is_own: bool)
         if not len(time):
             return None
         values = np.hstack([np.array([np.interp(time, own, v) for v in part.T]).T for (own, part), _ in parts])
-    return Found(Stream(time, _turned(place, way, values, len(parts))), way, there[0], notes)
+    _check_numbers(place, way, values.shape[1], len(parts))
+    return Found(stream_of(name, way, Stream(time, values)), way, there[0], notes)
 
 
 def _has_columns(way: Way, tables: LogTables, topic: str) -> bool:
@@ -236,37 +241,11 @@ def _has_columns(way: Way, tables: LogTables, topic: str) -> bool:
     return True
 
 
-def _turned(place: str, way: Way, values: Array, parts: int) -> Array:
-    """The values of a way's columns in our units, axes and, of an attitude, as quaternions."""
-    width = values.shape[1] // parts
-    numbers = list[Any]()
+def _check_numbers(place: str, way: Way, width: int, parts: int) -> None:
+    """Refuse offsets and factors that are not one for each column of a topic, or of all."""
     for key, number in (("offset", way.offset), ("scale", way.scale)):
-        if isinstance(number, tuple) and len(number) != width:
-            raise InputError(f"{place}: {key} has {len(number)} numbers for {width} columns")
-        numbers.append(np.array(number * parts if isinstance(number, tuple) else number))
-    offset, factor = numbers[0], numbers[1] * factor_of(way.unit)
-    values = values + offset if np.any(offset != 0.0) else values
-    values = values * factor if np.any(factor != 1.0) else values
-    values = quaternions_of(values, way.angles) if way.angles else values
-    if way.up == "y":
-        values = values.copy()
-        for axis in range(values.shape[1] % 3, values.shape[1], 3):  # of a quaternion, after its real part
-            values[:, axis + 1], values[:, axis + 2] = -values[:, axis + 2], values[:, axis + 1].copy()
-    return values
-
-
-def quaternions_of(angles: Array, kind: str) -> Array:
-    """Quaternions w, x, y, z (n, 4) of angles (n, 3) [rad]; `kind`: as `Way.angles`."""
-    if kind == ROTATION_VECTOR:
-        size = np.linalg.norm(angles, axis=1, keepdims=True)
-        return np.hstack([np.cos(0.5 * size), 0.5 * np.sinc(size / (2.0 * np.pi)) * angles])
-    turns = []
-    for angle, letter in zip(angles.T, kind.lower(), strict=True):
-        turn = np.zeros((len(angle), 4))
-        turn[:, 0], turn[:, 1 + "xyz".index(letter)] = np.cos(0.5 * angle), np.sin(0.5 * angle)
-        turns.append(turn)
-    a, b, c = turns if kind.isupper() else turns[::-1]
-    return quaternion_product(quaternion_product(a, b), c)
+        if isinstance(number, tuple) and len(number) not in (width // parts, width):
+            raise InputError(f"{place}: {key} has {len(number)} numbers for {width // parts} columns")
 
 
 def _heard(own: Array, times: Array) -> NDArray[np.bool_]:
@@ -286,9 +265,9 @@ def _part(place: str, way: Way, tables: LogTables, topic: str) -> tuple[Stream, 
     _check_units(place, way, tables)
     own = [column(name) for name in way.columns]
     rows = own[0] if len(own) == 1 and own[0].ndim == 2 else np.column_stack([v.reshape(len(v), -1) for v in own])
-    some = np.isfinite(rows[:, 0])
-    for v in rows.T[1:]:
-        some |= np.isfinite(v)
+    del own
+    tables.taken(topic, way.columns)
+    some = functools.reduce(np.logical_or, map(np.isfinite, rows.T))
     time, notes = _stamps(place, way, tables, topic, some)
     some &= np.isfinite(time)
     for name, allowed in way.where.items():
@@ -300,13 +279,9 @@ def _part(place: str, way: Way, tables: LogTables, topic: str) -> tuple[Stream, 
     if not some.all():
         rows, time = rows[some], time[some]
     check_order(place, time, np.flatnonzero(some))
-    rows = np.unwrap(rows, period=2.0 * math.pi / factor_of(way.unit), axis=0) if _is_euler(way) else rows
+    rows = np.unwrap(rows, period=2.0 * math.pi / factor_of(way.unit), axis=0) if way.is_euler else rows
     stream, said = distinct(place, Stream(time, rows))
     return stream, (*notes, *said)
-
-
-def _is_euler(way: Way) -> bool:
-    return way.angles not in ("", ROTATION_VECTOR)
 
 
 def _column(place: str, tables: LogTables, topic: str, name: str) -> Array:
@@ -369,4 +344,4 @@ def _counted(name: str, found: Found, tables: LogTables, first: float) -> Iterab
                 delta = np.array([part[row] for part in parts])
                 length = float(np.linalg.norm(delta)) if parts else math.nan
                 size = 2.0 * math.acos(min(1.0, abs(float(delta[0])))) if len(delta) == 4 else length
-                yield Reset(name, float(time[row]) - first, size)
+                yield Reset(name, float(time[row]) - found.way.delay - first, size)

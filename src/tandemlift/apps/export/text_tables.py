@@ -13,6 +13,7 @@ import itertools
 import math
 import re
 from array import array
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -199,14 +200,14 @@ def read_table(path: Path, wanted: Iterable[str], settings: Any, kind: str = "")
 
     Args:
         path: of the file.
-        wanted: names of columns; those that are not there are left out.
+        wanted: names of columns, one for each stream that needs it; those that are not there are left out.
         settings: the map's `separator`, `decimal`, `names_line` and `rigid_body`.
         kind: "optitrack" or "vicon", for their several lines of names.
 
     Raises:
         InputError: a line has another length, a cell that is asked for is no number, or there is none.
     """
-    encoding, asked = encoding_of(path), [*dict.fromkeys(wanted)]
+    encoding, uses, asked = encoding_of(path), Counter(wanted := [*wanted]), [*dict.fromkeys(wanted)]
     try:
         with path.open(encoding=encoding, errors="replace" if encoding == "cp1252" else None, newline="") as file:
             head = [line.rstrip("\r\n") for line in itertools.islice(file, HEAD)]
@@ -227,9 +228,16 @@ def read_table(path: Path, wanted: Iterable[str], settings: Any, kind: str = "")
     for name, factor in layout.factors.items():
         if name in columns and factor != 1.0:
             columns[name] = columns[name] * factor
+
+    def taken(_: str, copied: Sequence[str]) -> None:
+        uses.subtract(copied)
+        for name in copied:
+            if not uses[name]:
+                columns.pop(name, None)
+
     notes = [f"{path}: read as Windows' cp1252, since it is not UTF-8"] * (encoding == "cp1252")
     notes += [f"{path}: read with a decimal comma"] * (layout.decimal == "," and settings.decimal is None)
-    return LogTables([""], lambda _: names, lambda _, name: columns[name], units=layout.units, notes=tuple(notes))
+    return LogTables([""], lambda _: names, lambda _, n: columns[n], (), "", layout.units, tuple(notes), taken)
 
 
 OWN_NAME = "one that is read must have its own name; names_line = [1, 2] joins the names of two lines as Upper.Lower"

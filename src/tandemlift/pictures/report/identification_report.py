@@ -68,6 +68,8 @@ def write_identification(found: Mapping[str, Any], folder: Path) -> Path:
         parameters=_table(found["parameters"], found["written"]),
         whole=_table(found["whole_vehicle"]),
         residuals=_residuals(found),
+        streams=_streams(found["streams"]),
+        assumptions=PageTable("setup", ("", "Assumed"), [[a, b] for a, b in found["assumptions"]]),
         figures=shown_figures(drawn, CAPTIONS),
         versions=f"Identified with {', '.join(f'{name} {version}' for name, version in versions('compiled').items())}.",
     )
@@ -98,6 +100,12 @@ def _residuals(found: Mapping[str, Any]) -> PageTable:
         predicted = [DASH if ratio is None else number(ratio) for ratio in ratios]
         lines.append([code(name), *numbers, "yes" if w["white"] else strong("no"), number(w["factor"]), *predicted])
     return PageTable("compared keys", (*titles, "Held back", "Another flight"), lines)
+
+
+def _streams(tests: Sequence[Mapping[str, str]]) -> PageTable:
+    titles = ("Streams", "Test", "Found", "Expected", "Verdict")
+    lines: list[list[Cell]] = [[t["stream"], t["test"], t["found"], t["expected"] or DASH, t["verdict"]] for t in tests]
+    return PageTable("setup", titles, lines)
 
 
 @styled

@@ -17,6 +17,17 @@ def test_a_refused_setting_says_why_and_shows_what_it_was(page, live):
     assert entry.input_value() == before
 
 
+def test_what_is_no_number_is_named_and_the_value_stays(page, live):
+    box = panel(page, "admittance.mass")
+    entry = box.locator("input[type=number]").first
+    before = entry.input_value()
+    entry.select_text()
+    entry.press_sequentially("--")
+    entry.press("Enter")
+    until(lambda: "is no finite number" in box.locator(".reason").text_content(), "a reason")
+    assert entry.input_value() == before
+
+
 def test_a_dead_rotor_is_marked_on_every_page(browser, live):
     def told(socket):
         server = socket.connect_to_server()

@@ -296,5 +296,7 @@ def _refusal(text: str) -> Refusal:
     try:
         PAGE_MESSAGES[name].model_validate_json(text)
     except ValidationError as error:
-        return Refusal(name, problems_in(PAGE_MESSAGES[name], error, {name: data}, (name,))[0].sentence)
+        problems = problems_in(PAGE_MESSAGES[name], error, {name: data}, (name,))
+        key = data.get("key") if all(problem.place[-1] != "key" for problem in problems) else None
+        return Refusal(f"{name} {key}" if key else name, problems[0].sentence)
     return Refusal(name, "must be text in UTF-8")
