@@ -75,7 +75,7 @@ def test_what_was_flown_until_the_engine_is_lost_is_kept_with_the_reason(how, lo
     mission = tl.load_mission("hover", SHORT)
     lost(last=10**6)
     whole = tl.fly(mission, "gazebo")
-    monkeypatch.setattr(gazebo, "STEPPING", 2.0 if how == "is silent" else gazebo.STEP_TIMEOUT)
+    monkeypatch.setattr(gazebo, "STEP_TIMEOUT", 2.0 if how == "is silent" else gazebo.STEP_TIMEOUT)
     port = lost(how).port
     flight = tl.fly(mission, "gazebo")
     assert flight.outcome == "interrupted"
@@ -198,7 +198,8 @@ class Server:
 @pytest.mark.parametrize("options", [["--fast"], ["--by-hand"]])
 def test_the_command_gazebo_writes_what_was_flown_and_names_the_end_of_its_server(options, run, tmp_path, monkeypatch):
     monkeypatch.setattr("tandemlift.engines.gazebo.GazeboServer", Server)
-    monkeypatch.setattr("tandemlift.engines.gazebo_server.root", lambda: None)
+    for module in ("gazebo", "gazebo_server"):
+        monkeypatch.setattr(f"tandemlift.engines.{module}.root", lambda: None)
     words = ["--no-window", "--no-figures", "--out", "out", "--set=mission.log_interval=0.001"]
     code, _, errors = run("gazebo", "hover", *options, *words)
     assert code == 3
