@@ -35,6 +35,7 @@ FIXED = (
         "changes",
         "admittance.feel",
     ),
+    "allocation.notches",  # need the modes of a structure
     "excitation",  # needs lines that suit the vehicle
     *("plant.center_of_mass_offset", *(f"vehicle.payload.{key}" for key in OTHER_BODIES)),  # the judge has none of them
 )

@@ -30,7 +30,7 @@ class Chain:
     def __init__(self, vehicle):
         self.vehicle, payload = vehicle, vehicle.payload
         (bending, torsional), length = payload.stiffnesses, payload.length
-        h, gyration = length / SEGMENTS, payload.round_section.gyration
+        h, gyration = length / SEGMENTS, np.sqrt(payload.round_section.gyration_squared)
         self.edges = [-0.5 * length, *(-0.5 * length + (i + 0.5) * h for i in range(SEGMENTS)), 0.5 * length]
         springs = (("1 0 0", bending), ("0 0 1", bending), ("0 1 0", torsional))
         hinges = "".join(
@@ -127,7 +127,7 @@ def test_the_first_six_frequencies_are_those_of_the_chain(both):
 @pytest.mark.thorough
 def test_the_elastic_vehicle_moves_as_the_chain_does(both):
     mission, vehicle, chain = both
-    plant, state, steps = start_plant(mission, vehicle, Absent(), Absent()), start_state(mission), 900
+    plant, state, steps = start_plant(mission, vehicle, Absent(), Absent()), start_state(mission.initial), 900
     k = plant.structure
     n = len(k.stiffness)
     plant = plant._replace(structure=k._replace(damping=several(n)(*[PROPORTIONAL * w for w in k.stiffness])))

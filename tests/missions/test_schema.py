@@ -13,7 +13,8 @@ from pydantic import ValidationError
 
 import tandemlift as tl
 from tandemlift.apps.cli.main import cli
-from tandemlift.missions import DATA, Mission, built_in, load_mission, tables_of
+from tandemlift.core.files import DATA
+from tandemlift.missions import Mission, built_in, load_mission, tables_of
 from tandemlift.missions.changes import MISSING, value_at
 from tandemlift.missions.reference import mission_schema, template_text
 

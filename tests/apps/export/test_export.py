@@ -218,7 +218,9 @@ def test_what_the_pilot_knows_besides_bears_the_names_of_channels(read, flight):
     told = numbers(messages, *(f"position.{i}" for i in range(len(names))))
     for name, column in zip(names, told.T, strict=True):
         channel, _, axis = name.partition(".")
-        own = flight[channel][:, "xyz".index(axis)] if axis else flight[channel]
+        number, _, direction = axis.rpartition(".")  # of a quadrotor, if each has its own
+        column_of = 3 * (int(number or 1) - 1) + "xyz".index(direction or "x")
+        own = flight[channel][:, column_of] if axis else flight[channel]
         np.testing.assert_array_equal(column, own)
 
 

@@ -134,7 +134,7 @@ def flexed(mission, keys=None):
     """A mission's body in free air, its vehicle and its state at the start."""
     loaded = tl.load_mission(mission, {**PINE, **(keys or {})})
     vehicle = Vehicle.from_settings(loaded.vehicle)
-    return start_plant(loaded, vehicle, Absent(), Absent()), vehicle, start_state(loaded)
+    return start_plant(loaded, vehicle, Absent(), Absent()), vehicle, start_state(loaded.initial)
 
 
 def still(force=(0.0, 0.0, 0.0), point=(0.0, 0.0, 0.0)):

@@ -140,7 +140,7 @@ CALM = {
 OSCILLATION = OscillationLimits(Swings(0.3, 0.3, 0.3, 0.15), shortest=0.02, longest=2.0, halves=4.0)
 FOUND = FindingLimits(
     settled=1.0, distance=0.1**2, sinking=0.05, heading=0.2, upright=np.cos(0.25), mass=3.0, thrust=40.0**2,
-    rate=0.3**2, push=LIMITS, unpushed=1.0, oscillation=OSCILLATION,
+    rate=0.3**2, push=LIMITS, unpushed=1.0, oscillation=OSCILLATION, shake=1.0,
 )  # fmt: skip
 STILL = SimpleNamespace(position=ZERO)
 

@@ -44,11 +44,11 @@ class RoundSection(NamedTuple):
         return math.pi * (self.outer**2 - self.inner**2)
 
     @property
-    def gyration(self) -> float:
-        """Radius of gyration about a diameter [m]."""
-        return 0.5 * math.hypot(self.outer, self.inner)
+    def gyration_squared(self) -> float:
+        """Square of the radius of gyration about a diameter [m²]; about the axis it is twice that."""
+        return 0.25 * (self.outer**2 + self.inner**2)
 
     @property
     def second_moment(self) -> float:
         """I about a diameter [m⁴]; about the axis it is twice that."""
-        return self.area * self.gyration**2
+        return self.area * self.gyration_squared

@@ -230,7 +230,7 @@ class Payload(
     @property
     def round_section(self) -> RoundSection:
         """The section of a beam."""
-        radius = self.radius or 0.0
+        _, radius = self._rod
         return RoundSection(radius, 0.0 if self.wall is None else radius - self.wall)
 
     @property
@@ -260,7 +260,7 @@ class Payload(
             x, y, z = (self.mass * side**2 / 12.0 for side in self.size)
             return (y + z, x + z, x + y)
         length, radius = self._rod
-        across, around = self.mass * length**2 / 12.0, self.mass * self.round_section.gyration**2
+        across, around = self.mass * length**2 / 12.0, self.mass * self.round_section.gyration_squared
         if length < 2.0 * SLENDER * radius or self.is_elastic or self.wall is not None:
             across += around
         return (across, 2.0 * around, across)

@@ -156,7 +156,7 @@ def _add_beam(vehicle: Vehicle, stations: Array, nodes: list[Motions], M: Array,
     """Add the elements of the beam: it bends along z with the rotation about x, along x with that about −z."""
     payload = vehicle.payload
     bending, torsion = payload.stiffnesses
-    gyration, per_length = payload.round_section.gyration, payload.mass / float(np.ptp(stations))
+    gyration, per_length = math.sqrt(payload.round_section.gyration_squared), payload.mass / float(np.ptp(stations))
     for i, h in enumerate(np.diff(stations).tolist()):
         a, b = nodes[i : i + 2]
         k, m = beam_element(h, bending, per_length, 0.0 if slender else gyration)

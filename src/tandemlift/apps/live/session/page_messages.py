@@ -27,7 +27,7 @@ MAX_LENGTH = 4_096  # characters that are read: twice what the longest message w
 WITH_FILE = '{"type":"fly",'  # begins a message that may be as long as MAX_SIZE, as it has the content of a file
 MAX_KEYS = 12
 MAX_PARTS = 128  # values and tables that are read: more than any message has
-MAX_FILE_PARTS = 4_096  # likewise, with those of a file: four times what a mission with every key has
+MAX_FILE_PARTS = 4_608  # likewise, with those of a file: four times what a mission with every key has
 _STRING = re.compile(r'"(?:[^"\\]|\\.)*+"?', re.DOTALL)  # also one without its end: no text is looked at twice
 
 
