@@ -59,7 +59,7 @@ class PlainStep:
     def __init__(self, r: LinearizationPlan) -> None:
         plan, t = r.point.plan, r.point.k * r.point.plan.dt
         self.r, self.t, self.dt, self.model, given = r, t, plan.dt, plan.model, plan.given
-        outer = given_at(plan.tables, t, plan.dt)
+        outer = given_at(plan, t)
         self.given = given._replace(hand=type(given.hand)(NO_PUSH, NO_PUSH, NO_PUSH))
         noise = [0.0] * len(flat(given.noise))
         self.outer = [*outer["hand"], *outer["gust"], *noise]
