@@ -67,11 +67,14 @@ def test_a_mistake_in_a_map_is_refused_with_its_true_cause_or_harmless(seed, pai
 def test_loads_that_are_read_at_their_instant_leave_no_half_step_in_the_delay(rate, pairs):
     """With loads predicted half a step ahead, the delay was 0.39 ms off at 500 Hz: 11 half intervals."""
     changes, flights = pairs
-    rows = compared(changes[0], flights[0], rate, 5)["rows"]
-    delay, truth, low, high = rows["actuators.delay"]
-    assert abs(delay - truth) < 1.5 * 0.5 * (high - low)
-    assert abs(delay - truth) < 3e-4
-    assert np.mean([holds(row) for row in rows.values()]) > 0.8
+    held = []
+    for seed in (5, 8):  # of the readings: the errors of one log hang together
+        rows = compared(changes[0], flights[0], rate, seed)["rows"]
+        delay, truth, low, high = rows["actuators.delay"]
+        assert abs(delay - truth) < 1.5 * 0.5 * (high - low)
+        assert abs(delay - truth) < 3e-4
+        held += [holds(row) for row in rows.values()]
+    assert np.mean(held) > 0.8
 
 
 def test_the_numbers_of_unlike_quadrotors_are_told_apart(pairs):

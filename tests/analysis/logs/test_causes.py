@@ -110,7 +110,7 @@ MISTAKEN = {
     "speeds in rpm": ({SPEED_COMMANDS: lambda v: v * 30.0 / np.pi}, r'in rpm: \[rotor_speed_commands\] unit = "rpm"$'),
     "parts of the largest speed": (
         {SPEED_COMMANDS: lambda v: v / 1200.0},
-        r"hover: .*e-07 of the weight; expected: 0.5 to 2\. No single change",
+        r"hover: .*e-07 of the weight; expected: 0.5 to 2; .*No single change",
     ),
     "squares of speeds": ({SPEED_COMMANDS: np.square}, r"of squares .*\[rotor_speed_commands\] power = 0.5$"),
     "y up": (

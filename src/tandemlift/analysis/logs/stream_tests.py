@@ -57,6 +57,7 @@ TOLD = 0.12  # standard deviation of a scale that is known
 LEFT = 0.3  # of the moments of thrusts, that what they do not explain must be to be told from their errors
 STILL = 0.01  # rad/s, below which a vehicle may stand
 
+RELATIVE = 0.1  # standard deviation of a scale far off over its size, up to which it is told
 ACROSS, UPWARD = np.array([1.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0])
 
 
@@ -172,7 +173,8 @@ def fitted(y: Array, x: Array, good: Truths, noise: Sequence[Array], kind: LawKi
         own_scale = _scales(p, q, noise[1])
         own_sd = np.sqrt(np.mean((p - q * own_scale) ** 2, axis=0) / power / (own / 3.0))
         off &= _beyond(own_scale, own_sd, kind) | (own_sd > 2.0 * TOLD)
-    told = (scale_sd < kind.told) & (power_x > 3.0 * noise[1])
+    # a scale far off is told by its own size: of exchanged axes it is large, and so is what it leaves
+    told = ((scale_sd < kind.told) | (off & (scale_sd < RELATIVE * np.abs(scale)))) & (power_x > 3.0 * noise[1])
     left = np.mean((a - b * np.clip(scale, *kind.scales)) ** 2, axis=0) / np.maximum(power_y, 1e-300)
     slope = np.mean(np.gradient(a, CELL, axis=0) ** 2, axis=0)
     whole = np.mean((a - b @ A.T) ** 2, axis=0)
