@@ -13,7 +13,7 @@ from tandemlift.missions import Mission
 
 SHAPE = re.compile(r"shape\.(?:coordinates|rates)\.n(\d+)")
 BEFORE_TARE = 1.0 + LIFT + 0.5 * SETTLED  # s: the hover of `calm_mission` before its tare
-NARROW = 0.003  # damping ratio: a mode with less is close to growing
+LEAST_DAMPING = 0.003  # damping ratio: a mode with less is close to growing
 
 
 def closed_structure(mission: Mission) -> dict[int, Mode]:
@@ -51,4 +51,4 @@ def structure_in_loop_checks(mission: Mission) -> Iterator[CheckResult]:
         )
         damping = mode.damping
         result = judged("structure", -damping, 0.0, "1", text, subject=subject)
-        yield result if damping < 0.0 or damping >= NARROW else result._replace(verdict="close")
+        yield result if damping < 0.0 or damping >= LEAST_DAMPING else result._replace(verdict="close")

@@ -3,8 +3,8 @@
 The body axes are the mean axes of the deformed vehicle (Tisserand): its centre of mass is the state's position, and its
 modes carry neither momentum nor angular momentum. So the equations of the rigid body stay, and each mode is an
 oscillator, q̈ + 2 ζ ω q̇ + ω² q = φᵀf, under the forces and moments f at its places. What acts back, to first order: a
-thrust turns by the slope at its quadrotor, and its lever arm moves. Places of the surroundings' forces, the change of
-the inertia, and the stiffness that thrust and centrifugal force give are left out.
+thrust turns by the slope at its quadrotor, and its lever arm moves. Left out are the moved places of the surroundings'
+forces, the change of the inertia, and the stiffness that a static droop and centrifugal forces give.
 
 Source: Canavin and Likins, Journal of Spacecraft and Rockets 14 (1977) 724, for the axes.
 """
@@ -58,9 +58,9 @@ from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.structure_modes import ElasticModes, Motions, modes_of
 from tandemlift.parts.mechanics.vehicle import Vehicle
 
-STEEP = 0.1  # rad: sines and angles differ by 0.2 %
-TWIST = 0.25  # m: the place beside the axis at which a twist is compared with a displacement
-REACH = 0.5  # ω · step of the fastest mode: RK4 then adds 2e-4 to its damping ratio and 5e-4 to its period
+LARGEST_SLOPE = 0.1  # rad: sines and angles differ by 0.2 %
+TWIST_ARM = 0.25  # m: the place beside the axis at which a twist is compared with a displacement
+PHASE_STEP = 0.5  # rad, ω · step of the fastest mode: RK4 then adds 2e-4 to its damping ratio and 5e-4 to its period
 DIGITS = 10
 
 
@@ -189,7 +189,7 @@ def is_elastic(vehicle: Vehicle) -> bool:
 def kept_modes(vehicle: Vehicle, step: float) -> ElasticModes:
     """The lowest modes of an elastic vehicle, as many as its table has and as steps of time [s] can follow."""
     modes = modes_of(vehicle)
-    within = int(np.sum(modes.frequency * step <= REACH))
+    within = int(np.sum(modes.frequency * step <= PHASE_STEP))
     return modes.first(min(within, vehicle.payload.modes))
 
 
@@ -378,7 +378,7 @@ def structure_refusals(vehicle: Vehicle, step: float) -> Iterator[CheckResult]:
     if not len(modes.frequency):
         lowest = float(modes_of(vehicle).frequency[0])
         yield refused(
-            f"mission.step = {step:g}: must be at most {REACH / lowest:.2g} s for the lowest mode of the vehicle, "
+            f"mission.step = {step:g}: must be at most {PHASE_STEP / lowest:.2g} s for the lowest mode of the vehicle, of "
             f"{lowest / (2.0 * math.pi):.3g} Hz; or leave out vehicle.payload.material and joint_stiffness: it is rigid"
         )
 
@@ -411,13 +411,13 @@ def structure_checks(vehicle: Vehicle, step: float) -> Iterator[CheckResult]:
         return
     for mode in structure_modes(vehicle, step):
         subject = f"{mode.shape}, {mode.hertz:.3g} Hz, damping {mode.damping:.2g}"
-        yield judged("mode", mode.frequency, REACH / step, "rad/s", "", subject=subject, near=0.0)
+        yield judged("mode", mode.frequency, PHASE_STEP / step, "rad/s", "", subject=subject, near=0.0)
     turn = hover_slopes(kept_modes(vehicle, step), vehicle)
     text = (
-        f"in hover, the quadrotors lean by {turn:.2g} rad, and the model is one of small slopes, up to {STEEP:g} rad: "
-        "stiffen the beam"
+        f"in hover, the quadrotors lean by {turn:.2g} rad, and the model is one of small slopes, up to "
+        f"{LARGEST_SLOPE:g} rad: stiffen the beam"
     )
-    yield judged("slope", turn, STEEP, "rad", text)
+    yield judged("slope", turn, LARGEST_SLOPE, "rad", text)
 
 
 def hover_slopes(modes: ElasticModes, vehicle: Vehicle) -> float:
@@ -431,7 +431,7 @@ def mode_in_words(modes: ElasticModes, i: int) -> str:
     """The shape of a mode: what bends or twists, and how its ends move."""
     x, _, z = np.sqrt(np.mean(np.square(modes.payload.displacement[:, :, i]), axis=0))
     ends = modes.quadrotors
-    twist = TWIST * np.sqrt(np.mean(np.square(ends.rotation[:, 1, i])))
+    twist = TWIST_ARM * np.sqrt(np.mean(np.square(ends.rotation[:, 1, i])))
     kind = int(np.argmax([x, twist, z]))
     moved = ends.rotation[:, 1, i] if kind == 1 else ends.displacement[:, kind, i]
     name = ("bends sideways", "twists", "bends up and down")[kind]
