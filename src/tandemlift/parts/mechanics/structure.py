@@ -378,7 +378,7 @@ def structure_refusals(vehicle: Vehicle, step: float) -> Iterator[CheckResult]:
     if not len(modes.frequency):
         lowest = float(modes_of(vehicle).frequency[0])
         yield refused(
-            f"mission.step = {step:g}: must be at most {PHASE_STEP / lowest:.2g} s for the lowest mode of the vehicle, of "
+            f"mission.step = {step:g}: must be at most {PHASE_STEP / lowest:.2g} s for the lowest mode of the vehicle, "
             f"{lowest / (2.0 * math.pi):.3g} Hz; or leave out vehicle.payload.material and joint_stiffness: it is rigid"
         )
 
