@@ -17,7 +17,7 @@ from tandemlift.analysis.linearization.period import (
     differentiate,
     values_under_way,
 )
-from tandemlift.analysis.linearization.step_graph import NO_PUSH
+from tandemlift.analysis.linearization.step_graph import no_push
 from tandemlift.simulation.loop.step import step_flight
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.stepping import Stepper
@@ -60,7 +60,7 @@ class PlainStep:
         plan, t = r.point.plan, r.point.k * r.point.plan.dt
         self.r, self.t, self.dt, self.model, given = r, t, plan.dt, plan.model, plan.given
         outer = given_at(plan, t)
-        self.given = given._replace(hand=type(given.hand)(NO_PUSH, NO_PUSH, NO_PUSH))
+        self.given = given._replace(hand=type(given.hand)(*[no_push(plan)] * 3))
         noise = [0.0] * len(flat(given.noise))
         self.outer = [*outer["hand"], *outer["gust"], *noise]
         self.places = {"hand": 0, "gust": len(outer["hand"])}

@@ -6,7 +6,7 @@ and the nearest walls held.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from tandemlift.core.arrays import inverse
 from tandemlift.core.caching import cached
@@ -26,7 +26,7 @@ from tandemlift.engines.compiled_contact import (
     with_contact_force,
     with_load,
 )
-from tandemlift.engines.compiled_structure import moved_body, shape_at_rest
+from tandemlift.engines.compiled_structure import divided, shape_at_rest, with_shape
 from tandemlift.engines.models.links import parts_layout_from
 from tandemlift.engines.models.scene import Scene, floor_from, walls_from
 from tandemlift.parts.contact.feet import Floor, FootGrip
@@ -42,6 +42,7 @@ from tandemlift.parts.mechanics.rigid_body import (
     State,
     inertia_value,
     motion,
+    rk4,
 )
 from tandemlift.parts.mechanics.rotation import quaternion_from_euler
 from tandemlift.parts.mechanics.structure import Deformation, elastic_readings, structure_of
@@ -116,12 +117,16 @@ def advance(
     b = BodySurroundings(plant, load_about_center(air, plant.frame, s.attitude), grip, near)
     u = wrench(plant.effect, thrusts)
     struck, q = struck_by_walls(plant.walls, b, s, u, hand.start, dt), s.attitude
-    moved = moved_body(shape, b, struck, thrusts, air, u, hand, dt)
-    mean = with_load(load_about_center(struck.loads, plant.frame, q), plant.body, q, moved.rate)
+    body, x = with_shape(shape, b, struck.state, thrusts, air, struck.loads, dt)
+    k1 = motion(body, x, u, hand.start)
+    rate, bending = divided(k1)
+    after, bent = divided(rk4(body, x, k1, u, hand, dt))
+    mean = with_load(load_about_center(struck.loads, plant.frame, q), plant.body, q, rate)
     readings = readings_in(b, struck.state, mean, air, thrusts, struck.loads)
     felt = Acceleration(mean.velocity, mean.rates)
-    readings = elastic_readings(plant.structure, plant.frame, struck.state, shape, felt, moved.acceleration, readings)
-    return BodyStep(moved.state, moved.shape, readings, grip_after(plant.floor, grip, moved.state), Absent())
+    own = struck.state, shape, felt, bending, struck.loads
+    readings = elastic_readings(plant.structure, plant.frame, *own, readings)
+    return BodyStep(after, bent, readings, grip_after(plant.floor, grip, after), Absent())
 
 
 @cached
@@ -138,8 +143,8 @@ def readings_at_rest(
     b = BodySurroundings(plant, Absent(), grip, near)
     k1 = motion(b, s, wrench(plant.effect, thrusts), hand.start)
     readings, felt = readings_in(b, s, k1, Absent(), thrusts, Absent()), Acceleration(k1.velocity, k1.rates)
-    still = shape if isinstance(shape, Absent) else shape.rates
-    return elastic_readings(plant.structure, plant.frame, s, shape, felt, still, readings)
+    still: Any = shape if isinstance(shape, Absent) else shape * 0.0
+    return elastic_readings(plant.structure, plant.frame, s, shape, felt, still, Absent(), readings)
 
 
 @cached

@@ -16,10 +16,9 @@ from tandemlift.engines.compiled_contact import (
     wall_loads,
     with_load,
 )
-from tandemlift.parts.contact.impulses import WallImpulses
 from tandemlift.parts.mechanics.joint_loads import PartLoad, PartLoads, quadrotor_wrenches
 from tandemlift.parts.mechanics.push import Push, PushSamples
-from tandemlift.parts.mechanics.rigid_body import State, Wrench, motion, rk4
+from tandemlift.parts.mechanics.rigid_body import State, Wrench, motion
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
 from tandemlift.parts.mechanics.structure import (
     Deformation,
@@ -44,15 +43,6 @@ class ElasticBody(NamedTuple):
     around: BodySurroundings
     thrusts: PerQuadrotor
     work: Any
-
-
-class MovedBody(NamedTuple):
-    """State and deformation after a step; at its start the motion, and q̈ of the modes (`Absent` of a rigid body)."""
-
-    state: State
-    shape: Deformation | Absent
-    rate: State
-    acceleration: Any
 
 
 @law
@@ -89,52 +79,34 @@ def elastic_motion(b: ElasticBody, s: ElasticState, u: Wrench, push: Push) -> El
     )
 
 
-@choice
-def moved_body(
-    shape: Deformation | Absent,
-    b: BodySurroundings,
-    struck: WallImpulses,
-    thrusts: PerRotor,
-    air: PartLoads | Absent,
-    u: Wrench,
-    hand: PushSamples[Push],
-    dt: Number,
-) -> MovedBody:
-    """The body after a step of dt [s], once walls have struck it."""
-
-
-@moved_body.register(Absent)
-def _rigid(
-    shape: Absent,
-    b: BodySurroundings,
-    struck: WallImpulses,
-    thrusts: PerRotor,
-    air: PartLoads | Absent,
-    u: Wrench,
-    hand: PushSamples[Push],
-    dt: Number,
-) -> MovedBody:
-    k1 = motion(b, struck.state, u, hand.start)
-    return MovedBody(rk4(b, struck.state, k1, u, hand, dt), Absent(), k1, Absent())
-
-
-@moved_body.register(Deformation)
-def _elastic(
+@law(absent=("b", "s"))
+def with_shape(
     shape: Deformation,
     b: BodySurroundings,
-    struck: WallImpulses,
+    s: State,
     thrusts: PerRotor,
     air: PartLoads | Absent,
-    u: Wrench,
-    hand: PushSamples[Push],
+    struck: PartLoads | Absent,
     dt: Number,
-) -> MovedBody:
-    body, k = elastic_body(b, struck.state, thrusts, air), b.plant.structure
-    kicked = with_work_of_loads(struck.loads, k, struck.state.attitude, shape.rates * 0.0)  # of loads over the step
-    x = ElasticState(struck.state, shape._replace(rates=shape.rates + kicked * dt))
-    k1 = motion(body, x, u, hand.start)
-    after = rk4(body, x, k1, u, hand, dt)
-    return MovedBody(after.body, after.shape, k1.body, k1.shape.rates + kicked)
+) -> tuple[ElasticBody, ElasticState]:
+    """(The body of a step of dt [s], its state), once mean loads of walls that `struck` it have kicked the modes."""
+    kick = with_work_of_loads(struck, b.plant.structure, s.attitude, shape.rates * 0.0)
+    return elastic_body(b, s, thrusts, air), ElasticState(s, shape._replace(rates=shape.rates + kick * dt))
+
+
+@choice
+def divided(s: State | ElasticState) -> tuple[State, Deformation | Absent]:
+    """The state of the body, or its rate, and that of its deformation."""
+
+
+@divided.register(State)
+def _rigid(s: State) -> tuple[State, Absent]:
+    return s, Absent()
+
+
+@divided.register(ElasticState)
+def _elastic(s: ElasticState) -> tuple[State, Deformation]:
+    return s.body, s.shape
 
 
 @law

@@ -10,7 +10,7 @@ from scipy.integrate import simpson
 from scipy.optimize import brentq
 
 import tandemlift as tl
-from tandemlift.core.vector import Absent, each, several, vec3
+from tandemlift.core.vector import Absent, each, outer, several, vec3
 from tandemlift.engines.compiled import advance, start_plant, start_shape, start_state
 from tandemlift.parts.mechanics.push import BeamPush, PointPush, PushSamples, on_beam, pushed_at
 from tandemlift.parts.mechanics.rigid_body import State
@@ -27,7 +27,7 @@ from tandemlift.parts.mechanics.vehicle_table import VehicleTable
 
 M, J = 1.5, 0.029  # kg, kg m²: of a quadrotor
 TUBE = {"section": "tube"}
-BEAMS = {  # their kg, and the closed form's first bending frequencies, 2 % about those of the paper of the field
+BEAMS = {  # of 2 m
     "cfrp 30 x 1": {"material": "cfrp", **TUBE, "radius": 0.015, "wall": 0.001},
     "cfrp 16 x 1": {"material": "cfrp", **TUBE, "radius": 0.008, "wall": 0.001},
     "aluminium 25 x 1": {"material": "aluminium", **TUBE, "radius": 0.0125, "wall": 0.001},
@@ -138,14 +138,8 @@ def flexed(mission, keys=None):
 
 
 def still(force=(0.0, 0.0, 0.0), point=(0.0, 0.0, 0.0)):
-    push = on_beam(PointPush(vec3(force), outer(force, point)), vec3(point))
+    push = on_beam(PointPush(vec3(force), outer(vec3(force), vec3(point))), vec3(point))
     return PushSamples(push, push, push)
-
-
-def outer(force, point):
-    from tandemlift.core.vector import outer as product
-
-    return product(vec3(force), vec3(point))
 
 
 def test_a_hovering_beam_droops_as_one_on_two_supports_under_its_weight():
@@ -193,7 +187,7 @@ def test_a_push_works_on_a_mode_by_the_shape_at_its_point():
 
 
 def test_a_push_of_a_kind_keeps_its_kind():
-    push = PointPush(vec3([1.0, 2.0, 3.0]), outer([1.0, 2.0, 3.0], [0.1, 2.0, 0.0]))
+    push = PointPush(vec3([1.0, 2.0, 3.0]), outer(vec3([1.0, 2.0, 3.0]), vec3([0.1, 2.0, 0.0])))
     assert pushed_at(push, push, vec3([0.1, 2.0, 0.0])) is push
     on = pushed_at(still().start, push, vec3([0.1, 2.0, 0.0]))
     assert isinstance(on, BeamPush)
@@ -232,6 +226,21 @@ def test_a_beam_that_cannot_be_is_refused_by_its_key(keys, said):
     with pytest.raises(tl.InputError) as refused:
         tl.load_mission("iris", {f"vehicle.payload.{name}": value for name, value in keys.items()})
     assert said in str(refused.value)
+
+
+def test_a_linear_model_knows_what_a_push_does_to_a_mode():
+    mission = tl.load_mission("iris", {**PINE, "sensors.model": "none", "pilot.state": "truth", "pilot.push": "truth"})
+    model = tl.linearize(mission, 6.0, of="body", inputs=["push_force"])
+    k = structure_of(Vehicle.from_settings(mission.vehicle), 1e-3)
+    rows = {v.name: row for v, row in zip(model.states, model.B, strict=True)}
+    for i in range(3):  # a step of 1 ms is short for the slow ones
+        expected = 1e-3 * np.array(k.along.linear.displacement[i])
+        np.testing.assert_allclose(rows[f"shape.rates.n{i}"], expected, atol=1e-3 * np.abs(expected).max() + 1e-7)
+
+
+def test_identification_refuses_a_beam_that_bends():
+    with pytest.raises(tl.InputError, match=r"vehicle\.payload.*rigid"):
+        tl.identify(tl.fly(tl.load_mission("iris", {**PINE, "mission.duration": 1.0})), tl.load_mission("iris", PINE))
 
 
 def test_other_engines_refuse_a_beam_that_bends():

@@ -85,6 +85,11 @@ def identify(
         InputError: a log lacks a stream, is too short or not of such a vehicle; or a key cannot be estimated.
     """
     began, mission = time.perf_counter(), mission_of(mission)
+    if mission.is_elastic:
+        raise InputError(
+            f"{mission.mission.name}: vehicle.payload must be rigid here, as every mount (no material, no "
+            "bending_stiffness, no joint_stiffness): the body that predicts a log does not bend"
+        )
     given = [logs] if isinstance(logs, (Log, Flight)) else list(logs)
     if not given:
         raise InputError("logs: must be one or more")

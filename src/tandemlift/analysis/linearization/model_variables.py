@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from tandemlift.analysis.linearization.state_variables import Variable
-from tandemlift.analysis.linearization.step_graph import NO_PUSH
+from tandemlift.analysis.linearization.step_graph import no_push
 from tandemlift.core.errors import InputError, unknown
 from tandemlift.core.types import flat, leaves, unflat
 from tandemlift.core.vector import Absent, Quat
 from tandemlift.flight.channels import channel_of, column_names
 from tandemlift.parts.mechanics.rotation import rotation_from_quaternion
-from tandemlift.simulation.graphs import PointPush, PushSamples, gust_velocity, push_at
+from tandemlift.simulation.graphs import PushSamples, gust_velocity, push_at
 from tandemlift.simulation.plan import FlightPlan
 from tandemlift.simulation.preparation import GAUSSIAN, GUST, leaf_offset
 from tandemlift.simulation.results import channels_of
@@ -23,7 +23,7 @@ LOOP = ("push_force", "push_moment", "disturbance_force", "disturbance_moment", 
 BODY = ("rotor_thrusts", *LOOP)
 ON_REQUEST = ("thrust_offsets",)  # inputs of the loop that are not taken by default
 UNITS = {"push_moment": "N m", "disturbance_moment": "N m", "wind_velocity": "m/s"}  # the others: N
-SPREAD, HAND = 3, 12  # of a `PointPush`: where Σ F rᵀ begins, and its numbers
+SPREAD = 3  # where Σ F rᵀ begins in a push
 
 
 class InputColumn(NamedTuple):
@@ -73,11 +73,12 @@ def _columns(p: FlightPlan, name: str, attitude: Quat) -> list[InputColumn]:
 
 
 def _seeds(p: FlightPlan, name: str, i: int, attitude: Quat) -> list[tuple[str, int, float]]:
+    size = len(flat(no_push(p)))
     if name == "push_force":
-        return [("hand", HAND * part + i, 1.0) for part in range(3)]
+        return [("hand", size * part + i, 1.0) for part in range(3)]
     if name == "push_moment":
         return [
-            ("hand", HAND * part + SPREAD + j, weight)
+            ("hand", size * part + SPREAD + j, weight)
             for part in range(3)
             for j, weight in enumerate(_spread_of_moment(i, attitude))
         ]
@@ -103,12 +104,10 @@ def given_at(p: FlightPlan, t: float) -> dict[str, list[float]]:
     return {"hand": flat(hand), "gust": gust.tolist(), "t": [t], "dt": [p.dt]}
 
 
-def push_sum(p: FlightPlan, t: float) -> PointPush:
+def push_sum(p: FlightPlan, t: float) -> Any:
     """The sum of the mission's pushes at a time [s]."""
-    total: PointPush = NO_PUSH
-    for row in p.tables.pushes:
-        total = total + push_at(NO_PUSH, unflat(row, GAUSSIAN), t)
-    return total
+    kind = no_push(p)
+    return sum((push_at(kind, unflat(row, GAUSSIAN), t) for row in p.tables.pushes), start=kind)
 
 
 class Outputs(NamedTuple):

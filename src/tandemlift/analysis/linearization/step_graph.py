@@ -40,6 +40,12 @@ class StateChoice(NamedTuple):
     smooth: frozenset[int]
 
 
+def no_push(p: FlightPlan) -> Any:
+    """No push, as a value of the kind that a linear model of a flight has: at points, or on a beam that bends."""
+    own = p.given.hand.start
+    return own if leaves(own) > leaves(NO_PUSH) else NO_PUSH
+
+
 def leaf_names(value: Any, path: str = "") -> list[str]:
     """The dotted names of the numbers of a nested value."""
     if not is_value(value):
@@ -63,7 +69,7 @@ class StepGraph:
     """
 
     def __init__(self, p: FlightPlan, given: Any = None) -> None:
-        templates = templates_from(p.model, given or p.given._replace(hand=PushSamples(NO_PUSH, NO_PUSH, NO_PUSH)))
+        templates = templates_from(p.model, given or p.given._replace(hand=PushSamples(*[no_push(p)] * 3)))
         self.traced = TracedStep(templates, fuses=p.mission.mission.fma, rolls=False)
         self.graph, self.sample = self.traced.graph, templates.sample
         self.next = [s.node for s in self.traced.next_state]

@@ -319,13 +319,16 @@ def elastic_readings(
     s: State,
     shape: Deformation,
     a: Acceleration,
-    acceleration: Any,
+    bending: Deformation,
+    struck: PartLoads | Absent,
     readings: PerfectReadings,
 ) -> PerfectReadings:
     """The readings of sensors that move and turn with their places, from those of the rigid body.
 
-    `a`: of the mean axes; `acceleration`: q̈. Quadrotors' sensors read in the axes of their quadrotor.
+    `a`: of the mean axes; `bending`: the rate of the shape, without the mean loads of walls that `struck`.
+    Quadrotors' sensors read in the axes of their quadrotor.
     """
+    acceleration = with_work_of_loads(struck, k, s.attitude, bending.rates)
     q, felt = shape.coordinates, readings.specific_force
     more = superposed(k.origin.displacement, acceleration) - cross(superposed(k.origin.rotation, q), felt)
     turn, here = superposed(k.quadrotors.rotation, q), specific_force_at(s, a, frame.quadrotors)

@@ -63,7 +63,7 @@ class FindingLimits(NamedTuple):
     push: PushLimits
     unpushed: Number
     oscillation: OscillationLimits
-    shake: Number
+    shake: Number | Absent
 
 
 class Detectors(NamedTuple):

@@ -16,6 +16,7 @@ from tandemlift.parts.guidance.admittance import AdmittanceTable
 from tandemlift.parts.guidance.compliance import ComplianceTable
 from tandemlift.parts.guidance.supervision import SupervisionTable
 from tandemlift.parts.mechanics.rigid_body import State
+from tandemlift.parts.mechanics.structure import is_elastic
 from tandemlift.parts.mechanics.vehicle import Vehicle
 from tandemlift.parts.mechanics.vehicle_table import PlantTable
 from tandemlift.parts.rotors.rotors import ActuatorsTable
@@ -79,7 +80,7 @@ def finding_limits_from(
             longest=0.5 / f.slowest_oscillation,
             halves=2.0 * f.oscillation_periods,
         ),
-        shake=(f.structure_thrust * nominal.weight / nominal.rotor_count) ** 2,
+        shake=(f.structure_thrust * nominal.weight / nominal.rotor_count) ** 2 if is_elastic(nominal) else Absent(),
     )
 
 
