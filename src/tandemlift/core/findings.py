@@ -44,7 +44,7 @@ KINDS = (
         "structure-oscillates",
         "the thrusts of a vehicle whose beam bends or whose mounts give went on swinging: a loop of the pilot drives a "
         "mode of the structure",
-        "stiffen the beam or its mounts, or lower the controller's gains; `tandemlift check` names the modes",
+        "add notches (`allocation.notches`) at the modes that `tandemlift check` finds driven, or stiffen the beam",
         ("findings.structure_thrust", "findings.structure_time"),
     ),
     FindingKind(

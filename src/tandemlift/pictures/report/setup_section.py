@@ -52,7 +52,9 @@ def _vehicle(flight: Flight) -> Iterator[Row]:
     count, payload = len(table.quadrotors), table.payload.mass
     mass = payload + sum(q.mass for q in table.quadrotors)
     fleet = f"{count} quadrotor{'s' if count > 1 else ''}"
-    yield "Vehicle", f"{fleet} and a payload of {describe(payload, 'kg')}, {describe(mass, 'kg')} in all"
+    bends = f", which bends ({table.payload.material or 'stiffness given'})" if table.payload.is_elastic else ""
+    gives = "; mounts give" if any(q.joint_stiffness is not None for q in table.quadrotors) else ""
+    yield "Vehicle", f"{fleet} and a payload of {describe(payload, 'kg')}{bends}, {describe(mass, 'kg')} in all{gives}"
     plant, push = _table(flight, "plant"), _table(flight, "disturbance")
     unknown = []
     if plant.mass_scale != 1.0:
